@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "lift_slam/features/descriptors.h"
+#include "lift_slam/features/keypoint.h"
+#include "lift_slam/image/image.h"
+
+namespace lift_slam {
+
+// Features of one image; keypoints[i] belongs to descriptors.row(i). In detection order, which is
+// the same from run to run.
+struct FeatureSet {
+  std::vector<Keypoint> keypoints;
+  Descriptors descriptors;
+};
+
+// The pyramid a detector works on: level i is scaled down by scale_factor^i.
+struct ScaleLevels {
+  int num_levels = 1;
+  double scale_factor = 1.2;
+
+  double Scale(int level) const;   // scale_factor^level, >= 1
+};
+
+// Distances below which two descriptors are taken for the same point; in the kind's own metric.
+struct MatchingThresholds {
+  float low = 0.0F;    // TH_LOW: strict, wide search (paper sec. III-B)
+  float high = 0.0F;   // TH_HIGH: loose, guided search
+};
+
+// Finds and describes features. One object serves one thread.
+class FeatureExtractor {
+ public:
+  virtual ~FeatureExtractor() = default;
+  virtual FeatureSet Extract(const GrayImage& image) = 0;
+  virtual const ScaleLevels& scale_levels() const = 0;
+  virtual const DescriptorKind& descriptor_kind() const = 0;
+  virtual const MatchingThresholds& thresholds() const = 0;
+};
+
+}  // namespace lift_slam

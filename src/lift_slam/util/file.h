@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace lift_slam {
+
+// Whole file as text, one string a line, line ends (LF or CRLF) removed.
+// Throws InputError when the file is missing or cannot be read.
+std::vector<std::string> ReadLines(const std::filesystem::path& path);
+std::string ReadText(const std::filesystem::path& path);
+
+// Writes a file that appears whole or not at all: `write` fills a temporary file beside it, which
+// is then renamed. Throws InputError when the folder is not writable or the disk is full.
+void WriteFileAtomically(const std::filesystem::path& path,
+                         const std::function<void(std::ostream&)>& write);
+void WriteTextAtomically(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace lift_slam

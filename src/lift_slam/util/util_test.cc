@@ -1,0 +1,82 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "lift_slam/util/blocking_queue.h"
+#include "lift_slam/util/check.h"
+#include "lift_slam/util/file.h"
+#include "lift_slam/util/input_error.h"
+#include "lift_slam/util/random.h"
+
+namespace lift_slam {
+namespace {
+
+TEST(Check, ThrowsWithExpressionAndValues) {
+  try {
+    LIFT_SLAM_CHECK(1 > 2, "value {}", 42);
+    FAIL();
+  } catch (const CheckError& error) {
+    EXPECT_NE(std::string(error.what()).find("1 > 2"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("value 42"), std::string::npos);
+  }
+}
+
+TEST(BlockingQueue, KeepsOrderAcrossThreadsAndDrainsAfterClose) {
+  BlockingQueue<int> queue(2);
+  std::thread producer([&] {
+    for (int i = 0; i < 100; ++i) queue.Push(i);
+    queue.Close();
+  });
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(queue.Pop(), i);
+  EXPECT_EQ(queue.Pop(), std::nullopt);
+  producer.join();
+  EXPECT_FALSE(queue.Push(1));
+}
+
+TEST(File, MissingFileIsNamed) {
+  try {
+    ReadLines("/nonexistent/file.txt");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("/nonexistent/file.txt"), std::string::npos);
+  }
+}
+
+TEST(File, ReadsBackWhatItWroteAndDropsCarriageReturns) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "lift_slam_file_test.txt";
+  WriteTextAtomically(path, "a\r\nb\n");
+  EXPECT_EQ(ReadLines(path), (std::vector<std::string>{"a", "b"}));
+  EXPECT_FALSE(std::filesystem::exists(path.string() + ".tmp"));
+  std::filesystem::remove(path);
+}
+
+TEST(File, UnwritableFolderIsAnInputError) {
+  EXPECT_THROW(WriteTextAtomically("/nonexistent/out.txt", "x"), InputError);
+}
+
+TEST(File, FullDiskIsAnInputErrorAndLeavesNoFile) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
+  const auto path = std::filesystem::path(testing::TempDir()) / "lift_slam_full";
+  std::filesystem::remove(path.string() + ".tmp");
+  std::filesystem::create_symlink("/dev/full", path.string() + ".tmp");
+  EXPECT_THROW(WriteTextAtomically(path, std::string(1 << 20, 'x')), InputError);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Random, SameSeedSameNumbersAndUniformRange) {
+  Random a(7), b(7), c(8);
+  double mean = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    const double x = a.Uniform();
+    EXPECT_EQ(x, b.Uniform());
+    mean += x / 1000.0;
+    const int k = c.UniformInt(-2, 3);
+    EXPECT_GE(k, -2);
+    EXPECT_LE(k, 3);
+  }
+  EXPECT_NEAR(mean, 0.5, 0.05);
+}
+
+}  // namespace
+}  // namespace lift_slam
