@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lift_slam/local_mapping/local_mapper_options.h"
+#include "lift_slam/optimization/map_bundle.h"
+#include "lift_slam/map/map.h"
+
+namespace lift_slam {
+
+struct MappingReport {
+  int points_created = 0;
+  int points_culled = 0;
+  int points_fused = 0;
+  int keyframes_culled = 0;
+  MapBundleReport bundle;
+  double create_ms = 0.0, fuse_ms = 0.0, bundle_ms = 0.0, cull_ms = 0.0;
+};
+
+// Keyframe to map (paper sec. III-B "Mapping"; ORB-SLAM sec. VI): cull recent points, create new
+// ones, fuse duplicates, local bundle adjustment, cull redundant keyframes.
+class LocalMapper {
+ public:
+  LocalMapper(const LocalMapperOptions& options, const BundleOptions& bundle)
+      : options_(options), bundle_options_(bundle) {}
+
+  // Call once for each new keyframe, before tracking goes on.
+  MappingReport Process(KeyFrameId keyframe, Map& map);
+
+ private:
+  MapBundleReport AdjustLocalBundle(KeyFrameId keyframe, Map& map) const;
+
+  LocalMapperOptions options_;
+  BundleOptions bundle_options_;
+  std::vector<MapPointId> recent_points_;
+};
+
+}  // namespace lift_slam

@@ -1,0 +1,112 @@
+#include "lift_slam/local_mapping/point_creation.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "lift_slam/geometry/triangulation.h"
+
+namespace lift_slam {
+namespace {
+
+// Chi-square, 2 degrees of freedom, 95 %.
+constexpr double kMaxSquaredError = 5.991;
+// The ratio of a point's distances must fit the ratio of the levels within this factor times one
+// level's scale.
+constexpr double kScaleSlack = 1.5;
+// Points nearer than this share of the near end of the scene are not looked for.
+constexpr double kNearShare = 0.3;
+constexpr double kNearQuantile = 0.02;
+
+struct SceneDepth {
+  double near = 0.0, median = 0.0;
+};
+
+std::optional<SceneDepth> MeasureDepth(const Map& map, KeyFrameId keyframe) {
+  const std::vector<double> depths = map.SceneDepths(keyframe);
+  if (depths.empty() || depths[depths.size() / 2] <= 0.0) return std::nullopt;
+  const double median = depths[depths.size() / 2];
+  const auto near = static_cast<std::size_t>(kNearQuantile * static_cast<double>(depths.size()));
+  return SceneDepth{kNearShare * std::max(depths[near], 0.02 * median), median};
+}
+
+class PairTriangulator {
+ public:
+  PairTriangulator(const Map& map, const KeyFrame& a, const KeyFrame& b,
+                   const LocalMapperOptions& options)
+      : view_(map.view()),
+        a_(a),
+        b_(b),
+        b_from_a_(b.cam_from_world * Inverse(a.cam_from_world)),
+        max_cosine_(std::cos(options.min_parallax_deg * std::numbers::pi / 180.0)) {}
+
+  // World position of the match's point; nothing when a check refuses it.
+  std::optional<Eigen::Vector3d> Triangulate(const FeatureMatch& match) const {
+    const Eigen::Vector3d ray_a = view_.pinhole.Unproject(a_.features->pixel(match.a));
+    const Eigen::Vector3d ray_b = view_.pinhole.Unproject(b_.features->pixel(match.b));
+    const double cosine =
+        (b_from_a_.rotation * ray_a).dot(ray_b) / (ray_a.norm() * ray_b.norm());
+    if (cosine <= 0.0 || cosine >= max_cosine_) return std::nullopt;
+    const auto in_a = TriangulatePoint(b_from_a_, ray_a.head<2>(), ray_b.head<2>());
+    if (!in_a || !ReprojectsWell(*in_a, a_, match.a)) return std::nullopt;
+    const Eigen::Vector3d in_b = b_from_a_ * *in_a;
+    if (!ReprojectsWell(in_b, b_, match.b) || !ScaleFits(*in_a, in_b, match)) return std::nullopt;
+    return Inverse(a_.cam_from_world) * *in_a;
+  }
+
+ private:
+  bool ReprojectsWell(const Eigen::Vector3d& in_cam, const KeyFrame& keyframe, int feature) const {
+    if (in_cam.z() <= 0.0) return false;
+    const double squared =
+        (view_.pinhole.Project(in_cam) - keyframe.features->pixel(feature)).squaredNorm();
+    const auto level = static_cast<std::size_t>(keyframe.features->level(feature));
+    return squared * view_.inverse_variance[level] <= kMaxSquaredError;
+  }
+
+  bool ScaleFits(const Eigen::Vector3d& in_a, const Eigen::Vector3d& in_b,
+                 const FeatureMatch& match) const {
+    // A point twice as far away is found on a level of half the scale: the product stays the same.
+    const auto scale = [&](const KeyFrame& keyframe, int feature) {
+      const auto level = static_cast<std::size_t>(keyframe.features->level(feature));
+      return static_cast<double>(view_.scale[level]);
+    };
+    const double ratio = (in_a.norm() * scale(a_, match.a)) / (in_b.norm() * scale(b_, match.b));
+    const double factor = kScaleSlack * view_.levels.scale_factor;
+    return ratio < factor && ratio > 1.0 / factor;
+  }
+
+  const ViewModel& view_;
+  const KeyFrame& a_;
+  const KeyFrame& b_;
+  Rigid3d b_from_a_;
+  double max_cosine_;
+};
+
+}  // namespace
+
+std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOptions& options,
+                                     Map& map) {
+  std::vector<MapPointId> created;
+  const auto depth = MeasureDepth(map, keyframe_id);
+  if (!depth) return created;
+  const KeyFrame& keyframe = map.keyframe(keyframe_id);
+  for (const auto& neighbor :
+       map.covisibility().Neighbors(keyframe_id, 1, options.triangulation_neighbors)) {
+    const KeyFrame& other = map.keyframe(neighbor.keyframe);
+    const double baseline = (keyframe.Center() - other.Center()).norm();
+    if (baseline < options.min_baseline_ratio * depth->median) continue;
+    const PairTriangulator triangulator(map, keyframe, other, options);
+    for (const FeatureMatch& match : MatchAlongEpipolarLines(keyframe, other, depth->near,
+                                                             map.view(), options.epipolar)) {
+      const auto position = triangulator.Triangulate(match);
+      if (!position) continue;
+      const MapPointId point = map.AddPoint(*position, keyframe_id);
+      map.AddObservation(point, keyframe_id, match.a);
+      map.AddObservation(point, neighbor.keyframe, match.b);
+      map.UpdateAppearance(point);
+      created.push_back(point);
+    }
+  }
+  return created;
+}
+
+}  // namespace lift_slam

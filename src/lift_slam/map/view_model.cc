@@ -1,0 +1,23 @@
+#include "lift_slam/map/view_model.h"
+
+namespace lift_slam {
+
+ViewModel MakeViewModel(const PinholeIntrinsics& pinhole, const Eigen::Vector4d& min_max_x_y,
+                        const ScaleLevels& levels, const MatchingThresholds& thresholds) {
+  ViewModel model;
+  model.pinhole = pinhole;
+  model.min_x = min_max_x_y[0];
+  model.max_x = min_max_x_y[1];
+  model.min_y = min_max_x_y[2];
+  model.max_y = min_max_x_y[3];
+  model.levels = levels;
+  model.thresholds = thresholds;
+  for (int level = 0; level < levels.num_levels; ++level) {
+    const double scale = levels.Scale(level);
+    model.scale.push_back(static_cast<float>(scale));
+    model.inverse_variance.push_back(1.0 / (scale * scale));
+  }
+  return model;
+}
+
+}  // namespace lift_slam

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "lift_slam/camera/pinhole.h"
+#include "lift_slam/features/feature_extractor.h"
+
+namespace lift_slam {
+
+// What all frames of a run share: the ideal pinhole that features are undistorted to, the part of
+// its image plane that the real image covers, and the feature extractor's scales and thresholds.
+struct ViewModel {
+  PinholeIntrinsics pinhole;
+  double min_x = 0.0, max_x = 0.0, min_y = 0.0, max_y = 0.0;  // undistorted pixels covered
+  ScaleLevels levels;
+  MatchingThresholds thresholds;
+  std::vector<float> scale;             // by level, >= 1
+  std::vector<double> inverse_variance;  // by level, 1 / px^2; sigma grows with the scale
+
+  bool Covers(const Eigen::Vector2d& pixel) const {
+    return pixel.x() >= min_x && pixel.x() < max_x && pixel.y() >= min_y && pixel.y() < max_y;
+  }
+};
+
+// Bounds are those of the undistorted image; sigma of level 0 is one pixel.
+ViewModel MakeViewModel(const PinholeIntrinsics& pinhole, const Eigen::Vector4d& min_max_x_y,
+                        const ScaleLevels& levels, const MatchingThresholds& thresholds);
+
+}  // namespace lift_slam

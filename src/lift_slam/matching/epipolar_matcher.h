@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "lift_slam/map/map.h"
+#include "lift_slam/matching/feature_matcher.h"
+
+namespace lift_slam {
+
+struct EpipolarMatchOptions {
+  double max_epipolar_error_px = 2.0;   // on level 0; grows with the level's scale
+  double min_epipole_distance_px = 10.0;  // too near the epipole a point's depth is unknown
+};
+
+// Matches features without map points of two keyframes along epipolar lines, for triangulation.
+// Only points deeper than `min_depth` (map units, in a's camera) are looked for, which bounds the
+// segment of the line. Each feature is used once. In order of a.
+std::vector<FeatureMatch> MatchAlongEpipolarLines(const KeyFrame& a, const KeyFrame& b,
+                                                  double min_depth, const ViewModel& view,
+                                                  const EpipolarMatchOptions& options);
+
+}  // namespace lift_slam

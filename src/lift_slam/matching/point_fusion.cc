@@ -1,0 +1,59 @@
+#include "lift_slam/matching/point_fusion.h"
+
+#include "lift_slam/matching/nearest_two.h"
+#include "lift_slam/matching/point_projection.h"
+
+namespace lift_slam {
+namespace {
+
+// Chi-square, 2 degrees of freedom, 95 %: a feature farther from the projection is another point.
+constexpr double kMaxSquaredError = 5.991;
+
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+int FindFeature(const Map& map, const KeyFrame& keyframe, const MapPoint& point,
+                const PointProjection& projection, float radius_px) {
+  const ViewModel& view = map.view();
+  const FrameFeatures& features = *keyframe.features;
+  NearestTwo nearest;
+  features.ForEachInSquare(
+      static_cast<float>(projection.pixel.x()), static_cast<float>(projection.pixel.y()),
+      radius_px * view.scale[Index(projection.level)], [&](int i) {
+        const int level = features.level(i);
+        if (level < projection.level - 1 || level > projection.level + 1) return;
+        const double squared_error = (features.pixel(i) - projection.pixel).squaredNorm();
+        if (squared_error * view.inverse_variance[Index(level)] > kMaxSquaredError) return;
+        nearest.Offer(i, DescriptorDistance(features.descriptor_kind(), point.descriptor,
+                                            features.descriptor(i)));
+      });
+  return nearest.best_distance <= view.thresholds.low ? nearest.best : -1;
+}
+
+}  // namespace
+
+FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe_id,
+                        float radius_px, Map& map) {
+  FusionCounts counts;
+  for (const MapPointId id : points) {
+    const MapPoint* point = map.FindPoint(id);
+    const KeyFrame& keyframe = map.keyframe(keyframe_id);
+    if (point == nullptr || point->FeatureIn(keyframe_id) >= 0) continue;
+    const auto projection = ProjectPoint(map.view(), *point, keyframe.cam_from_world);
+    if (!projection) continue;
+    const int feature = FindFeature(map, keyframe, *point, *projection, radius_px);
+    if (feature < 0) continue;
+    const MapPointId present = keyframe.map_points[Index(feature)];
+    if (!present.valid()) {
+      map.AddObservation(id, keyframe_id, feature);
+      ++counts.observations_added;
+    } else {
+      const bool keep_present =
+          map.point(present).num_observations() > point->num_observations();
+      map.MergePoints(keep_present ? id : present, keep_present ? present : id);
+      ++counts.points_merged;
+    }
+  }
+  return counts;
+}
+
+}  // namespace lift_slam

@@ -1,0 +1,109 @@
+#include "lift_slam/slam/run_recorder.h"
+
+#include <algorithm>
+#include <map>
+
+namespace lift_slam {
+namespace {
+
+std::optional<Rigid3d> FinalPose(const MapSession& session,
+                                 const MapSession::FrameReference& frame) {
+  const auto reference = session.map().ResolveReference(frame.reference);
+  if (!reference) return std::nullopt;
+  const Rigid3d cam_from_world = frame.cam_from_reference * reference->cam_from_keyframe *
+                                 session.map().keyframe(reference->keyframe).cam_from_world;
+  return Inverse(cam_from_world);
+}
+
+TrajectoryPose WithoutPose(const FrameRecord& frame) {
+  TrajectoryPose pose;
+  pose.frame_index = frame.frame_index;
+  pose.timestamp_ns = frame.timestamp_ns;
+  pose.state = frame.state == TrackingState::kInitializing ? PoseState::kNotInitialized
+                                                           : PoseState::kLost;
+  return pose;
+}
+
+void AddOnlineTrajectory(RunRecord& record) {
+  for (const FrameRecord& frame : record.frames) {
+    TrajectoryPose pose = WithoutPose(frame);
+    if (frame.world_from_cam) {
+      pose.world_from_cam = *frame.world_from_cam;
+      pose.state = PoseState::kOk;
+    }
+    record.online_trajectory.push_back(pose);
+  }
+}
+
+void AddFinalTrajectory(const std::vector<std::unique_ptr<MapSession>>& sessions,
+                        RunRecord& record) {
+  std::map<std::int64_t, Rigid3d> poses;   // by frame index; a later map does not replace a pose
+  for (const auto& session : sessions) {
+    for (const auto& frame : session->frames()) {
+      if (const auto pose = FinalPose(*session, frame)) poses.emplace(frame.frame_index, *pose);
+    }
+  }
+  for (const FrameRecord& frame : record.frames) {
+    TrajectoryPose pose = WithoutPose(frame);
+    if (const auto found = poses.find(frame.frame_index); found != poses.end()) {
+      pose.world_from_cam = found->second;
+      pose.state = PoseState::kOk;
+    }
+    record.final_trajectory.push_back(pose);
+  }
+}
+
+void AddKeyFrames(const Map& map, int map_index, std::vector<int>& keyframe_rows,
+                  RunRecord& record) {
+  for (const KeyFrameId id : map.KeyFrameIds()) {
+    const KeyFrame& keyframe = map.keyframe(id);
+    keyframe_rows.resize(id.index() + 1, -1);
+    keyframe_rows[id.index()] = static_cast<int>(record.keyframes.size());
+    KeyFrameRecord row;
+    row.pose.frame_index = keyframe.frame_index;
+    row.pose.timestamp_ns = keyframe.timestamp_ns;
+    row.pose.world_from_cam = Inverse(keyframe.cam_from_world);
+    row.map_index = map_index;
+    record.keyframes.push_back(row);
+  }
+}
+
+PointRecord MakePointRecord(const Map& map, const MapPoint& point,
+                            const std::vector<int>& keyframe_rows) {
+  PointRecord row;
+  row.position = point.position;
+  double error = 0.0;
+  for (const auto& observation : point.observations) {
+    const KeyFrame& keyframe = map.keyframe(observation.keyframe);
+    const Eigen::Vector2d pixel = keyframe.features->pixel(observation.feature);
+    error += (map.view().pinhole.Project(keyframe.cam_from_world * point.position) - pixel).norm();
+    row.observations.push_back({keyframe_rows[observation.keyframe.index()],
+                                static_cast<float>(pixel.x()), static_cast<float>(pixel.y())});
+  }
+  row.reprojection_error_px =
+      static_cast<float>(error / static_cast<double>(point.observations.size()));
+  return row;
+}
+
+}  // namespace
+
+void CompleteRunRecord(const std::vector<std::unique_ptr<MapSession>>& sessions,
+                       RunRecord& record) {
+  AddOnlineTrajectory(record);
+  AddFinalTrajectory(sessions, record);
+  record.num_maps = static_cast<int>(sessions.size());
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    const Map& map = sessions[i]->map();
+    const int map_index = static_cast<int>(i);
+    std::vector<int> keyframe_rows;   // by keyframe id
+    AddKeyFrames(map, map_index, keyframe_rows, record);
+    for (const MapPointId id : map.PointIds()) {
+      PointRecord row = MakePointRecord(map, map.point(id), keyframe_rows);
+      row.map_index = map_index;
+      row.gray = sessions[i]->GrayOf(id);
+      record.points.push_back(std::move(row));
+    }
+  }
+}
+
+}  // namespace lift_slam

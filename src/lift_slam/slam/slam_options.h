@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+
+#include "lift_slam/features/orb/orb_options.h"
+#include "lift_slam/local_mapping/local_mapper_options.h"
+#include "lift_slam/optimization/bundle_adjustment.h"
+#include "lift_slam/tracking/map_initializer.h"
+#include "lift_slam/tracking/tracker_options.h"
+
+namespace lift_slam {
+
+struct SlamOptions {
+  int seed = 0;                       // of everything random
+  double recovery_time_s = 1.0;       // a lost map is tried again so long, then a new one is begun
+  int min_keyframes_to_keep = 5;      // a map lost with fewer is thrown away ("reset")
+  bool final_bundle_adjustment = true;  // of every kept map, when the input has ended
+  OrbOptions orb;
+  MapInitializerOptions initializer;
+  TrackerOptions tracker;
+  LocalMapperOptions local_mapper;
+  BundleOptions local_bundle;         // also of the first map
+  BundleOptions final_bundle = FinalBundleDefaults();
+
+  void Visit(OptionVisitor& visitor) {
+    visitor.Field("seed", seed, "of everything random; the same seed gives the same result");
+    visitor.Field("recovery_time_s", recovery_time_s,
+                  "a lost map is tried again for so long before a new one is begun");
+    visitor.Field("min_keyframes_to_keep", min_keyframes_to_keep,
+                  "a map lost with fewer keyframes is thrown away");
+    visitor.Field("final_bundle_adjustment", final_bundle_adjustment,
+                  "adjust whole maps when the input has ended");
+    visitor.Group("orb", orb, "ORB features");
+    visitor.Group("initializer", initializer, "how a map is begun");
+    visitor.Group("tracker", tracker, "image to pose");
+    visitor.Group("local_mapper", local_mapper, "keyframe to map");
+    visitor.Group("local_bundle", local_bundle, "local bundle adjustment");
+    visitor.Group("final_bundle", final_bundle, "bundle adjustment of whole maps at the end");
+  }
+
+  static BundleOptions FinalBundleDefaults();
+};
+
+}  // namespace lift_slam

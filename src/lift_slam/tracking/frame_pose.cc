@@ -1,0 +1,26 @@
+#include "lift_slam/tracking/frame_pose.h"
+
+namespace lift_slam {
+
+int OptimizeFramePose(const Map& map, const PoseOptimizationOptions& options, Frame& frame) {
+  std::vector<PoseObservation> observations;
+  std::vector<std::size_t> features;
+  for (std::size_t i = 0; i < frame.map_points.size(); ++i) {
+    const MapPoint* point = map.FindPoint(frame.map_points[i]);
+    if (point == nullptr) continue;
+    const int feature = static_cast<int>(i);
+    const auto level = static_cast<std::size_t>(frame.features->level(feature));
+    observations.push_back({frame.features->pixel(feature), point->position,
+                            map.view().inverse_variance[level]});
+    features.push_back(i);
+  }
+  const PoseOptimizationResult result =
+      OptimizePose(map.view().pinhole, frame.cam_from_world, observations, options);
+  frame.cam_from_world = result.cam_from_world;
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    if (!result.is_inlier[k]) frame.map_points[features[k]] = MapPointId();
+  }
+  return result.num_inliers;
+}
+
+}  // namespace lift_slam

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "lift_slam/map/map.h"
+#include "lift_slam/util/options.h"
+
+namespace lift_slam {
+
+struct KeyFrameDecisionOptions {
+  // A keyframe is due when fewer than this share of the reference keyframe's points are tracked:
+  // the view has changed (ORB-SLAM sec. V-E).
+  double max_tracked_ratio = 0.9;
+  int max_frames_between = 30;   // frames; a keyframe at least this often
+  int min_frames_between = 1;    // frames; 1: each frame may be one
+  int min_tracked_points = 15;   // below this a frame is too weak to become a keyframe
+
+  void Visit(OptionVisitor& visitor) {
+    visitor.Field("max_tracked_ratio", max_tracked_ratio,
+                  "tracked share of the reference keyframe's points that asks for a keyframe");
+    visitor.Field("max_frames_between", max_frames_between, "frames between keyframes at most");
+    visitor.Field("min_frames_between", min_frames_between, "frames between keyframes at least");
+    visitor.Field("min_tracked_points", min_tracked_points,
+                  "map points a frame must track to become a keyframe");
+  }
+};
+
+// Whether the frame should become a keyframe: a weak view of the map, or long since the last one.
+bool ShouldBecomeKeyFrame(const Map& map, int num_tracked, KeyFrameId reference,
+                          int frames_since_keyframe, const KeyFrameDecisionOptions& options);
+
+}  // namespace lift_slam

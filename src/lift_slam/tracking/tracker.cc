@@ -1,0 +1,143 @@
+#include "lift_slam/tracking/tracker.h"
+
+#include "lift_slam/geometry/absolute_pose.h"
+#include "lift_slam/matching/frame_matcher.h"
+#include "lift_slam/tracking/frame_pose.h"
+#include "lift_slam/tracking/local_map.h"
+
+namespace lift_slam {
+namespace {
+
+// Below this an image shows nothing that could be tracked.
+constexpr int kMinFeatures = 50;
+// After a recovery the pose is rough: wider windows in the local map.
+constexpr float kWideRadiusFactor = 3.0F;
+
+void ClearMatches(Frame& frame) {
+  std::fill(frame.map_points.begin(), frame.map_points.end(), MapPointId());
+}
+
+void CountSightings(const std::vector<MapPointId>& visible, const Frame& frame, Map& map) {
+  for (const MapPointId id : visible) ++map.point(id).num_visible;
+  for (const MapPointId id : frame.map_points) {
+    if (MapPoint* point = map.FindPoint(id)) ++point->num_found;
+  }
+}
+
+}  // namespace
+
+void Tracker::Start(const Map& map, const Frame& last, std::optional<Rigid3d> velocity) {
+  last_was_tracked_ = true;
+  velocity_ = velocity;
+  last_ = last;
+  KeyFrameMapped(map, map.newest_keyframe());
+}
+
+void Tracker::KeyFrameMapped(const Map& map, KeyFrameId keyframe) {
+  const KeyFrame& mapped = map.keyframe(keyframe);
+  last_.cam_from_world = mapped.cam_from_world;
+  last_.map_points = mapped.map_points;
+  reference_ = keyframe;
+  frames_since_keyframe_ = 0;
+}
+
+TrackingResult Tracker::Track(Map& map, Frame& frame) {
+  TrackingResult result;
+  ++frames_since_keyframe_;
+  if (frame.features->size() < kMinFeatures) {
+    result.refusal = FrameRefusal::kTooFewFeatures;
+  } else {
+    bool found = last_was_tracked_ &&
+                 (TrackWithMotionModel(map, frame) || TrackReferenceKeyFrame(map, frame));
+    if (found) found = TrackLocalMap(map, frame, /*wide=*/false, result) >= options_.min_inliers;
+    if (!found && Recover(map, frame)) {
+      result.recovered = true;
+      found = TrackLocalMap(map, frame, /*wide=*/true, result) >= options_.min_inliers;
+    }
+    if (!found) {
+      result.refusal = result.num_matches < options_.min_inliers ? FrameRefusal::kTooFewTracked
+                                                                 : FrameRefusal::kPoseRejected;
+    }
+  }
+  if (result.refusal != FrameRefusal::kNone) {
+    ClearMatches(frame);
+    last_was_tracked_ = false;
+    velocity_.reset();
+    return result;
+  }
+  result.reference = reference_;
+  result.needs_keyframe = ShouldBecomeKeyFrame(map, result.num_inliers, reference_,
+                                               frames_since_keyframe_, options_.keyframe);
+  Remember(frame);
+  return result;
+}
+
+void Tracker::Remember(const Frame& frame) {
+  velocity_.reset();
+  if (last_was_tracked_) velocity_ = frame.cam_from_world * Inverse(last_.cam_from_world);
+  last_ = frame;
+  last_was_tracked_ = true;
+}
+
+bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame) const {
+  frame.cam_from_world = velocity_ ? *velocity_ * last_.cam_from_world : last_.cam_from_world;
+  const auto radius = static_cast<float>(options_.search_radius_px);
+  int matches = MatchFromLastFrame(map, last_, radius, frame);
+  for (int widening = 0; widening < 2 && matches < options_.min_matches; ++widening) {
+    ClearMatches(frame);
+    matches = MatchFromLastFrame(map, last_, radius * static_cast<float>(2 << widening), frame);
+  }
+  return matches >= options_.min_matches &&
+         OptimizeFramePose(map, options_.pose, frame) >= options_.min_inliers_first;
+}
+
+bool Tracker::TrackReferenceKeyFrame(const Map& map, Frame& frame) const {
+  if (map.FindKeyFrame(reference_) == nullptr) return false;
+  frame.cam_from_world = last_.cam_from_world;
+  return TryKeyFrame(map, reference_, frame);
+}
+
+bool Tracker::Recover(const Map& map, Frame& frame) const {
+  if (map.num_keyframes() == 0) return false;
+  KeyFrameId newest = reference_;
+  if (map.FindKeyFrame(newest) == nullptr) newest = map.KeyFrameIds().back();
+  if (TryKeyFrame(map, newest, frame)) return true;
+  for (const auto& neighbor :
+       map.covisibility().Neighbors(newest, 15, options_.recovery_keyframes - 1)) {
+    if (TryKeyFrame(map, neighbor.keyframe, frame)) return true;
+  }
+  return false;
+}
+
+bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const {
+  ClearMatches(frame);
+  if (MatchFromKeyFrame(map, map.keyframe(keyframe), frame) < options_.min_matches) return false;
+  std::vector<Eigen::Vector2d> normalized;
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < frame.features->size(); ++i) {
+    const MapPoint* point = map.FindPoint(frame.map_points[static_cast<std::size_t>(i)]);
+    if (point == nullptr) continue;
+    normalized.push_back(map.view().pinhole.Unproject(frame.features->pixel(i)).head<2>());
+    points.push_back(point->position);
+  }
+  AbsolutePoseOptions options;
+  options.focal_length_px = map.view().pinhole.fx;
+  options.seed = seed_;
+  const auto pose = EstimateAbsolutePose(normalized, points, options);
+  if (!pose) return false;
+  frame.cam_from_world = pose->cam_from_world;
+  return OptimizeFramePose(map, options_.pose, frame) >= options_.min_inliers_first;
+}
+
+int Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result) {
+  const LocalMap local = CollectLocalMap(map, frame, options_.max_local_keyframes);
+  if (local.reference.valid()) reference_ = local.reference;
+  const LocalMatchResult matched =
+      MatchLocalPoints(map, local.points, wide ? kWideRadiusFactor : 1.0F, frame);
+  result.num_matches = frame.CountMatches();
+  result.num_inliers = OptimizeFramePose(map, options_.pose, frame);
+  CountSightings(matched.visible, frame, map);
+  return result.num_inliers;
+}
+
+}  // namespace lift_slam

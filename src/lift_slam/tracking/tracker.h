@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "lift_slam/map/map.h"
+#include "lift_slam/tracking/tracker_options.h"
+#include "lift_slam/tracking/tracking_state.h"
+
+namespace lift_slam {
+
+struct TrackingResult {
+  FrameRefusal refusal = FrameRefusal::kNone;  // kNone: the frame has a pose
+  int num_matches = 0;         // before the final pose optimisation
+  int num_inliers = 0;
+  KeyFrameId reference;        // the frame's pose is kept relative to it
+  bool needs_keyframe = false;
+  bool recovered = false;      // found again without a prediction
+};
+
+// Image to pose within one map (paper sec. III-B "Tracking"): predict by constant velocity, match
+// the last frame's points, optimise the pose; then match the local map and optimise again. When
+// the prediction fails: the recent keyframes by descriptors alone.
+class Tracker {
+ public:
+  Tracker(const TrackerOptions& options, std::uint64_t seed) : options_(options), seed_(seed) {}
+
+  // Starts in a map whose newest keyframe is `last` (pose and matches valid).
+  void Start(const Map& map, const Frame& last, std::optional<Rigid3d> velocity);
+
+  // Gives the frame its pose and matches; updates the points' visibility counts.
+  TrackingResult Track(Map& map, Frame& frame);
+
+  // The last tracked frame became `keyframe` and local mapping has run: take over its new pose,
+  // matches and points.
+  void KeyFrameMapped(const Map& map, KeyFrameId keyframe);
+
+ private:
+  bool TrackWithMotionModel(const Map& map, Frame& frame) const;
+  bool TrackReferenceKeyFrame(const Map& map, Frame& frame) const;
+  bool Recover(const Map& map, Frame& frame) const;
+  bool TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const;
+  int TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result);
+  void Remember(const Frame& frame);
+
+  TrackerOptions options_;
+  std::uint64_t seed_;
+  Frame last_;
+  bool last_was_tracked_ = false;
+  std::optional<Rigid3d> velocity_;   // cam_from_last_cam
+  KeyFrameId reference_;
+  int frames_since_keyframe_ = 0;
+};
+
+}  // namespace lift_slam

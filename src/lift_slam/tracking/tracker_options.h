@@ -1,0 +1,34 @@
+#pragma once
+
+#include "lift_slam/optimization/pose_optimization.h"
+#include "lift_slam/tracking/keyframe_decision.h"
+#include "lift_slam/util/options.h"
+
+namespace lift_slam {
+
+struct TrackerOptions {
+  double search_radius_px = 15.0;      // around the predicted place, on level 0
+  int min_matches = 20;                // with the last frame; else the next, wider search
+  int min_inliers_first = 10;          // after the first pose optimisation
+  int min_inliers = 30;                // after the local map; fewer: lost
+  int max_local_keyframes = 60;        // of the local map
+  int recovery_keyframes = 5;          // recent keyframes matched without prediction when lost
+  PoseOptimizationOptions pose;
+  KeyFrameDecisionOptions keyframe;
+
+  void Visit(OptionVisitor& visitor) {
+    visitor.Field("search_radius_px", search_radius_px,
+                  "window around the predicted place of a point, on the full-size level");
+    visitor.Field("min_matches", min_matches, "matches with the last frame before a wider search");
+    visitor.Field("min_inliers_first", min_inliers_first,
+                  "points that must agree with the first pose");
+    visitor.Field("min_inliers", min_inliers, "tracked points below which a frame is lost");
+    visitor.Field("max_local_keyframes", max_local_keyframes, "keyframes of the local map");
+    visitor.Field("recovery_keyframes", recovery_keyframes,
+                  "keyframes tried without prediction when tracking fails");
+    visitor.Group("pose", pose, "motion-only bundle adjustment");
+    visitor.Group("keyframe", keyframe, "when a frame becomes a keyframe");
+  }
+};
+
+}  // namespace lift_slam
