@@ -36,6 +36,7 @@ MapSession::MapSession(InitialMap initial, const GrayImage& image, const SlamOpt
 void MapSession::Backfill(std::vector<Frame> waiting, const Frame& current) {
   const KeyFrame& first = map_->keyframe(KeyFrameId(0));
   frames_.push_back({first.frame_index, first.id, Rigid3d()});
+  const std::int64_t newest_waiting = waiting.back().frame_index;
   std::int64_t nearest = first.frame_index;
   Rigid3d nearest_pose = first.cam_from_world;
   for (const BackfilledFrame& frame :
@@ -48,7 +49,7 @@ void MapSession::Backfill(std::vector<Frame> waiting, const Frame& current) {
           frame.cam_from_reference * map_->keyframe(frame.reference).cam_from_world;
     }
   }
-  if (nearest + 1 == current.frame_index) {
+  if (nearest == newest_waiting) {
     initial_velocity_ = current.cam_from_world * Inverse(nearest_pose);
   }
 }
