@@ -32,7 +32,7 @@ struct Camera {
   PinholeIntrinsics pinhole;
   Distortion distortion;
   double frame_rate_hz = 0.0;  // nominal; 0: unknown
-  std::string source;          // file the calibration came from, for messages and reports
+  std::string source{};        // file the calibration came from, for messages and reports
 
   // Pixel of a point; nothing when it is behind the camera or outside the model's valid range.
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& x_in_cam) const;
