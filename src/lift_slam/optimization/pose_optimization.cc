@@ -2,6 +2,7 @@
 
 #include <ceres/tiny_solver.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -59,6 +60,13 @@ Rigid3d SolveRound(const PinholeIntrinsics& intrinsics, const Rigid3d& cam_from_
   return cost.CamFromWorld(change);
 }
 
+// The squared error that makes an outlier after this round.
+double OutlierLimit(const PoseOptimizationOptions& options, int round) {
+  const int last_wide = std::min(options.robust_rounds, options.rounds) - 1;
+  const int earlier = std::max(0, last_wide - round);
+  return options.max_squared_error * std::pow(options.limit_factor, earlier);
+}
+
 }  // namespace
 
 PoseOptimizationResult OptimizePose(const PinholeIntrinsics& intrinsics,
@@ -78,8 +86,8 @@ PoseOptimizationResult OptimizePose(const PinholeIntrinsics& intrinsics,
     Gather(observations, result.is_inlier, arrays);
     result.cam_from_world = SolveRound(intrinsics, result.cam_from_world, arrays,
                                        round < options.robust_rounds, options);
-    num_used = Classify(intrinsics, result.cam_from_world, observations, options.max_squared_error,
-                        result.is_inlier);
+    num_used = Classify(intrinsics, result.cam_from_world, observations,
+                        OutlierLimit(options, round), result.is_inlier);
   }
   if (num_used < kMinInliers) {
     result.cam_from_world = initial_cam_from_world;

@@ -45,6 +45,20 @@ TEST(OptimizePose, FindsOutliersAndThePoseAmongThem) {
             std::accumulate(result.is_inlier.begin(), result.is_inlier.end(), 0));
 }
 
+TEST(OptimizePose, FindsThePoseFromFewObservationsWithManyOutliers) {
+  Random random(11);
+  int found = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const PoseScene scene =
+        MakePoseScene({.num_points = 40, .sigma_px = 1.0, .outlier_share = 0.4}, random);
+    const Rigid3d initial = Perturb(scene.cam_from_world, random, 0.02, 0.2);
+    const auto result = OptimizePose(scene.intrinsics, initial, scene.observations);
+    const auto [distance, angle] = PoseDifference(result.cam_from_world, scene.cam_from_world);
+    found += distance < 0.15 && angle < 0.002;
+  }
+  EXPECT_GE(found, 88);  // 83 without the wider limits of the first rounds
+}
+
 TEST(OptimizePose, WeightsObservationsByTheirVariance) {
   Random random(3);
   PoseScene scene = MakePoseScene({.num_points = 200}, random);
