@@ -1,53 +1,32 @@
 #include "lift_slam/features/orb/corner_refinement.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace lift_slam {
-namespace {
 
-float ParabolaPeak(float before, float at, float after) {
-  const float curvature = before - 2.0F * at + after;
-  if (curvature >= 0.0F) return 0.0F;
-  return std::clamp(0.5F * (before - after) / curvature, -0.5F, 0.5F);
-}
-
-float SmallerEigenvalue(const GrayImage& image, int center_x, int center_y) {
-  constexpr int kRadius = 3;
-  int xx = 0, xy = 0, yy = 0;
-  for (int y = center_y - kRadius; y <= center_y + kRadius; ++y) {
-    const std::uint8_t *above = image.row(y - 1), *at = image.row(y), *below = image.row(y + 1);
-    for (int x = center_x - kRadius; x <= center_x + kRadius; ++x) {
-      const int dx = at[x + 1] - at[x - 1], dy = below[x] - above[x];
-      xx += dx * dx;
-      xy += dx * dy;
-      yy += dy * dy;
+// Least squares of z(u, v) = a + b u + c v + d u^2 + e v^2 + f u v over u, v in {-1, 0, 1}.
+RefinedPosition RefineCorner(const FastScoreMap& scores, const Corner& corner) {
+  int sum_u = 0, sum_v = 0, sum_uv = 0;  // of u z, v z, u v z
+  int curvature_u = 0, curvature_v = 0;  // of (3 u^2 - 2) z, (3 v^2 - 2) z
+  for (int v = -1; v <= 1; ++v) {
+    for (int u = -1; u <= 1; ++u) {
+      const int z = scores.Score(corner.x + u, corner.y + v);
+      sum_u += u * z;
+      sum_v += v * z;
+      sum_uv += u * v * z;
+      curvature_u += (3 * u * u - 2) * z;
+      curvature_v += (3 * v * v - 2) * z;
     }
   }
-  const auto mean = 0.5F * static_cast<float>(xx + yy);
-  return mean - std::hypot(0.5F * static_cast<float>(xx - yy), static_cast<float>(xy));
-}
-
-}  // namespace
-
-RefinedPosition RefineCorner(const GrayImage& image, const FastScoreMap& scores,
-                             const Corner& corner, SubpixelMethod method) {
-  const int x = corner.x, y = corner.y;
-  const auto refine = [&](auto score) {
-    const float at = score(x, y);
-    return RefinedPosition{
-        static_cast<float>(x) + ParabolaPeak(score(x - 1, y), at, score(x + 1, y)),
-        static_cast<float>(y) + ParabolaPeak(score(x, y - 1), at, score(x, y + 1))};
-  };
-  switch (method) {
-    case SubpixelMethod::kFastScore:
-      return refine([&](int u, int v) { return static_cast<float>(scores.Score(u, v)); });
-    case SubpixelMethod::kCornerness:
-      return refine([&](int u, int v) { return SmallerEigenvalue(image, u, v); });
-    case SubpixelMethod::kNone:
-      break;
-  }
-  return {static_cast<float>(x), static_cast<float>(y)};
+  const auto x = static_cast<float>(corner.x), y = static_cast<float>(corner.y);
+  const float b = static_cast<float>(sum_u) / 6.0F, c = static_cast<float>(sum_v) / 6.0F;
+  const float d = static_cast<float>(curvature_u) / 6.0F;
+  const float e = static_cast<float>(curvature_v) / 6.0F;
+  const float f = static_cast<float>(sum_uv) / 4.0F;
+  const float determinant = 4.0F * d * e - f * f;
+  if (d >= 0.0F || determinant <= 0.0F) return {x, y};
+  return {x + std::clamp((f * c - 2.0F * e * b) / determinant, -0.5F, 0.5F),
+          y + std::clamp((f * b - 2.0F * d * c) / determinant, -0.5F, 0.5F)};
 }
 
 }  // namespace lift_slam

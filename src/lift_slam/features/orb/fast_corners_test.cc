@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "lift_slam/features/orb/corner_refinement.h"
 #include "lift_slam/util/random.h"
 
 namespace lift_slam {
@@ -79,6 +81,25 @@ TEST(FastCorners, OfEqualNeighboursTheFirstIsKept) {
   EXPECT_EQ(corners[0].x, 20);
   EXPECT_EQ(corners[0].y, 20);
   EXPECT_EQ(corners[0].score, 190);
+}
+
+TEST(FastCorners, RefinementFollowsAShiftBelowAPixel) {
+  // A soft spot whose centre moves by parts of a pixel.
+  for (const double shift : {-0.4, -0.2, 0.0, 0.3}) {
+    cv::Mat image(41, 41, CV_8UC1);
+    for (int y = 0; y < 41; ++y) {
+      for (int x = 0; x < 41; ++x) {
+        const double u = x - 20.0 - shift, v = y - 20.0 + 0.5 * shift;
+        image.at<uchar>(y, x) =
+            cv::saturate_cast<uchar>(20.0 + 220.0 * std::exp(-(u * u + v * v) / 8.0));
+      }
+    }
+    FastScoreMap map;
+    map.Compute(GrayImage(image), kBorder);
+    const RefinedPosition position = RefineCorner(map, {20, 20, map.Score(20, 20)});
+    EXPECT_NEAR(position.x, 20.0 + shift, 0.1);
+    EXPECT_NEAR(position.y, 20.0 - 0.5 * shift, 0.1);
+  }
 }
 
 TEST(FastCorners, NoneInUniformOrTinyImages) {

@@ -93,11 +93,13 @@ OrbExtractor::LevelFeatures OrbExtractor::ExtractLevel(const PyramidLevel& level
   oriented.reserve(corners.size());
   for (const Corner& corner : corners) {
     const float angle_rad = IntensityCentroidAngle(level.image, corner.x, corner.y);
-    const RefinedPosition refined =
-        RefineCorner(level.image, scratch.scores, corner, options_.subpixel);
+    const RefinedPosition position =
+        options_.subpixel
+            ? RefineCorner(scratch.scores, corner)
+            : RefinedPosition{static_cast<float>(corner.x), static_cast<float>(corner.y)};
     oriented.push_back({corner.x, corner.y, angle_rad});
-    features.keypoints.push_back({.x = static_cast<float>(level.FullX(refined.x)),
-                                  .y = static_cast<float>(level.FullY(refined.y)),
+    features.keypoints.push_back({.x = static_cast<float>(level.FullX(position.x)),
+                                  .y = static_cast<float>(level.FullY(position.y)),
                                   .angle_rad = angle_rad,
                                   .response = static_cast<float>(corner.score),
                                   .level = level_index});

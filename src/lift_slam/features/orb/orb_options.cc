@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "lift_slam/util/input_error.h"
 
 namespace lift_slam {
 namespace {
-
-constexpr std::array<std::string_view, 3> kSubpixelNames = {"none", "fast_score", "cornerness"};
 
 template <class T>
 void CheckRange(std::string_view name, T value, T low, T high) {
@@ -30,8 +27,7 @@ void OrbOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("min_fast_threshold", min_fast_threshold,
                 "FAST contrast in cells without a corner above fast_threshold");
   visitor.Field("cell_size_px", cell_size_px, "side of those cells");
-  visitor.Field("subpixel", subpixel, kSubpixelNames,
-                "refinement below a pixel: none, fast_score or cornerness");
+  visitor.Field("subpixel", subpixel, "corner positions below a pixel");
   visitor.Field("num_threads", num_threads, "threads that share the pyramid levels");
 }
 
