@@ -21,5 +21,35 @@ void BM_OptimizePose(benchmark::State& state) {
 }
 BENCHMARK(BM_OptimizePose)->Arg(300)->Arg(500)->Arg(1500)->Unit(benchmark::kMicrosecond);
 
+// Arguments: free cameras, fixed cameras, points, threads; 5 observations a point, 1 px noise and 5
+// % outliers. The start is as far off as after tracking and triangulation.
+void BM_SolveBundle(benchmark::State& state) {
+  Random random(1);
+  const BundleScene scene =
+      MakeBundleScene({.num_free_cameras = static_cast<int>(state.range(0)),
+                       .num_fixed_cameras = static_cast<int>(state.range(1)),
+                       .num_points = static_cast<int>(state.range(2)),
+                       .observations_per_point = static_cast<int>(state.range(3)),
+                       .sigma_px = 1.0,
+                       .outlier_share = 0.05},
+                      random);
+  int iterations = 0;
+  double cost = 0;
+  for (auto _ : state) {
+    BundleProblem problem = scene.problem;
+    const BundleReport report =
+        SolveBundle(problem, {.num_threads = static_cast<int>(state.range(4))});
+    iterations = report.iterations;
+    cost = report.final_cost;
+  }
+  state.counters["observations"] = static_cast<double>(scene.problem.observations.size());
+  state.counters["iterations"] = iterations;
+  state.counters["cost"] = cost;
+}
+BENCHMARK(BM_SolveBundle)
+    ->Args({20, 20, 3000, 5, 1})
+    ->Args({20, 20, 3000, 5, 2})
+    ->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace lift_slam
