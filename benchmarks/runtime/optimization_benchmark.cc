@@ -38,7 +38,8 @@ void BM_SolveBundle(benchmark::State& state) {
   for (auto _ : state) {
     BundleProblem problem = scene.problem;
     const BundleReport report =
-        SolveBundle(problem, {.num_threads = static_cast<int>(state.range(4))});
+        SolveBundle(problem, {.solver = static_cast<BundleSolverKind>(state.range(4)),
+                              .num_threads = static_cast<int>(state.range(5))});
     iterations = report.iterations;
     cost = report.final_cost;
   }
@@ -47,8 +48,13 @@ void BM_SolveBundle(benchmark::State& state) {
   state.counters["cost"] = cost;
 }
 BENCHMARK(BM_SolveBundle)
-    ->Args({20, 20, 3000, 5, 1})
-    ->Args({20, 20, 3000, 5, 2})
+    ->Args({20, 20, 3000, 5, 1, 1})
+    ->Args({20, 20, 3000, 5, 1, 2})
+    ->Args({20, 20, 3000, 5, 2, 1})
+    ->Args({20, 20, 3000, 10, 1, 1})
+    ->Args({20, 20, 3000, 10, 2, 1})
+    ->Args({40, 20, 3000, 10, 1, 1})
+    ->Args({40, 20, 3000, 10, 2, 1})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

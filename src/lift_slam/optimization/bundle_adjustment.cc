@@ -7,11 +7,15 @@
 
 #include "lift_slam/optimization/bundle_round.h"
 #include "lift_slam/optimization/ceres_bundle_solver.h"
+#include "lift_slam/optimization/reduced_bundle_solver.h"
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/timer.h"
 
 namespace lift_slam {
 namespace {
+
+// Above, the cube of the number of cameras tells and Ceres' blocked and sparse solvers win.
+constexpr int kMaxReducedCameras = 40;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -126,13 +130,23 @@ class BundleRounds {
   BundleReport report_;
 };
 
+BundleSolverKind ChooseSolver(const BundleProblem& problem, BundleSolverKind wanted) {
+  const auto& is_fixed = problem.is_camera_fixed;
+  const auto num_free = std::count(is_fixed.begin(), is_fixed.end(), char{0});
+  if (num_free == 0) return BundleSolverKind::kCeres;
+  if (wanted != BundleSolverKind::kAutomatic) return wanted;
+  return num_free <= kMaxReducedCameras ? BundleSolverKind::kReduced : BundleSolverKind::kCeres;
+}
+
 }  // namespace
 
 BundleReport SolveBundle(BundleProblem& problem, const BundleOptions& options) {
   CheckProblem(problem, options);
   const std::vector<Rigid3d> initial_poses = problem.cams_from_world;
   const std::vector<Eigen::Vector3d> initial_points = problem.points;
-  BundleReport report = BundleRounds<CeresBundleSolver>(problem, options).Solve();
+  const bool is_reduced = ChooseSolver(problem, options.solver) == BundleSolverKind::kReduced;
+  BundleReport report = is_reduced ? BundleRounds<ReducedBundleSolver>(problem, options).Solve()
+                                   : BundleRounds<CeresBundleSolver>(problem, options).Solve();
   if (!report.usable) {
     problem.cams_from_world = initial_poses;
     problem.points = initial_points;

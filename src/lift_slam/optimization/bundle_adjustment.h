@@ -26,14 +26,19 @@ struct BundleProblem {
   std::vector<BundleObservation> observations;
 };
 
+// kAutomatic: kReduced with up to 40 free cameras, else kCeres.
+enum class BundleSolverKind { kAutomatic, kCeres, kReduced };
+
 struct BundleOptions {
+  // Both find the same minimum; see ceres_bundle_solver.h and reduced_bundle_solver.h.
+  BundleSolverKind solver = BundleSolverKind::kAutomatic;
   int robust_iterations = 5;  // most iterations of the first round, with a Huber loss
   int plain_iterations = 10;  // most iterations of the second, of the inliers alone, without it
   // Squared weighted error above which an observation is an outlier; its root is Huber's width.
   double max_squared_error = kChiSquare2Dof95Percent;
   // A round ends when a step changes the cost by a smaller share of it.
   double function_tolerance = 1e-3;
-  int num_threads = 1;
+  int num_threads = 1;      // of kCeres; more than 1 may change the last bits from run to run
   double max_time_s = 0.0;  // of the whole call, looked at between iterations; 0: no limit
 
   void Visit(OptionVisitor& visitor) {

@@ -1,5 +1,7 @@
 #include "lift_slam/optimization/cost_functions/reprojection_cost.h"
 
+#include <cmath>
+
 #include "lift_slam/optimization/chi_square.h"
 #include "lift_slam/optimization/so3.h"
 
@@ -8,9 +10,6 @@ namespace {
 
 using RowMatrix23 = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
 using RowMatrix26 = Eigen::Matrix<double, 2, 6, Eigen::RowMajor>;
-
-// Residual of a point behind the camera, in standard deviations.
-constexpr double kBehindResidual = 100.0;
 
 void WriteConstant(double value, double* residuals, double* point_jacobian,
                    double* camera_jacobian) {
@@ -26,8 +25,8 @@ void Evaluate(const ReprojectionTerm& term, const CameraBlock& camera, const dou
   const Eigen::Vector3d x_in_cam =
       camera.rotation() * Eigen::Map<const Eigen::Vector3d>(point) + camera.translation();
   if (!term.is_active || !(x_in_cam.z() > kMinDepth)) {
-    WriteConstant(term.is_active ? kBehindResidual : 0.0, residuals, point_jacobian,
-                  camera_jacobian);
+    WriteConstant(term.is_active ? std::sqrt(0.5 * kBehindSquaredError) : 0.0, residuals,
+                  point_jacobian, camera_jacobian);
     return;
   }
   const double inverse_z = 1.0 / x_in_cam.z();

@@ -10,6 +10,9 @@
 
 namespace lift_slam {
 
+// Squared error over variance that an observation counts with when its point is behind the camera.
+inline constexpr double kBehindSquaredError = 2.0e4;
+
 // A free camera of a bundle adjustment. Its parameter block is a change [w (3), d (3)] of a base
 // pose, x_in_cam = Exp(w) (base_cam_from_world * x_in_world) + d, so that it has no more
 // parameters than degrees of freedom and needs no manifold. All observations of the camera share
@@ -20,6 +23,7 @@ class CameraBlock {
   explicit CameraBlock(const Rigid3d& base_cam_from_world);
 
   double* parameters() { return parameters_.data(); }
+  const double* parameters() const { return parameters_.data(); }
   void Update();  // after a change of the parameters
   Rigid3d CamFromWorld() const;
 
@@ -46,9 +50,10 @@ struct ReprojectionTerm {
   bool is_active = true;       // when false the residuals are 0
 };
 
-// Residuals: inverse_sigma (Project(x_in_cam) - pixel), 2. A point behind the camera has large
-// constant residuals instead, which make a solver take back the step.
-// Parameter blocks: [0] point in world (3), [1] change of the camera's pose (6), see CameraBlock.
+// Residuals: inverse_sigma (Project(x_in_cam) - pixel), 2. A point behind the camera has
+// constant residuals of squared norm kBehindSquaredError instead, which make a solver take back the
+// step. Parameter blocks: [0] point in world (3), [1] change of the camera's pose (6), see
+// CameraBlock.
 class ReprojectionCost final : public ceres::SizedCostFunction<2, 3, 6> {
  public:
   // Both must outlive this.
