@@ -11,9 +11,8 @@ namespace {
 
 // Sub-pixel drawing: OpenCV takes coordinates as integers with this many fractional bits.
 constexpr int kShift = 4;
-const cv::Scalar kTracked(150, 230, 40);    // BGR
+const cv::Scalar kTracked(140, 235, 20);  // BGR
 const cv::Scalar kUnmatched(60, 170, 240);
-const cv::Scalar kOutline(30, 30, 30);
 
 cv::Point Fixed(double x, double y) {
   return {cvRound(x * (1 << kShift)), cvRound(y * (1 << kShift))};
@@ -24,8 +23,7 @@ void DrawMark(const AnnotatedFrame::Mark& mark, double scale, cv::Mat& image) {
   const cv::Point centre = Fixed((mark.x + 0.5) * scale - 0.5, (mark.y + 0.5) * scale - 0.5);
   const auto radius = [](double px) { return cvRound(px * (1 << kShift)); };
   if (mark.tracked) {
-    cv::circle(image, centre, radius(3.0), kOutline, 3, cv::LINE_AA, kShift);
-    cv::circle(image, centre, radius(3.0), kTracked, 1, cv::LINE_AA, kShift);
+    cv::circle(image, centre, radius(3.2), kTracked, 2, cv::LINE_AA, kShift);
   } else {
     cv::circle(image, centre, radius(1.0), kUnmatched, cv::FILLED, cv::LINE_AA, kShift);
   }

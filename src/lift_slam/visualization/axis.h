@@ -19,8 +19,8 @@ struct AxisRange {
 // Ticks at 1, 2 or 5 times a power of ten.
 struct AxisTicks {
   double step = 1.0;
-  std::vector<double> values;        // inside the range, ascending
-  std::vector<std::string> labels;   // one for each value, all with the same decimals
+  std::vector<double> values;       // inside the range, ascending
+  std::vector<std::string> labels;  // one for each value, all with the same decimals
 };
 
 // At most `max_count` (>= 2) ticks within a range of positive length. With `integers` no step is

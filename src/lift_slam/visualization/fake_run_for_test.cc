@@ -66,7 +66,8 @@ void AddPoints(const FakeRunOptions& options, int keyframe, Random& random, RunR
   for (int i = 0; i < options.points_per_keyframe; ++i) {
     const double side = random.Uniform() < 0.5 ? -1.0 : 1.0;
     const bool road = random.Uniform() < 0.15;
-    const double lateral = road ? random.Uniform(-4.0, 4.0) : side * (7.0 + std::abs(random.Normal()));
+    const double lateral =
+        road ? random.Uniform(-4.0, 4.0) : side * (7.0 + std::abs(random.Normal()));
     Eigen::Vector3d x(lateral, road ? 1.6 : random.Uniform(-6.0, 1.6), random.Uniform(4.0, 30.0));
     if (random.Uniform() < 0.01) x *= 20.0;  // the odd wild point
     PointRecord point;
@@ -160,22 +161,26 @@ FakeRun MakeFakeRun(const FakeRunOptions& options) {
     ++run.refusals[static_cast<std::size_t>(frame.refusal)];
     FillCounts(random, frame);
     FillTimes(random, frame, run);
-    if (frame.state == TrackingState::kLost && before == TrackingState::kTracking) ++run.lost_events;
+    if (frame.state == TrackingState::kLost && before == TrackingState::kTracking)
+      ++run.lost_events;
     before = frame.state;
     run.final_trajectory.push_back(pose);
     run.online_trajectory.push_back(pose);
     if (frame.is_keyframe) run.keyframes.push_back({pose, map_index});
     run.frames.push_back(frame);
   }
-  for (int k = 0; k < static_cast<int>(run.keyframes.size()); ++k) AddPoints(options, k, random, run);
+  for (int k = 0; k < static_cast<int>(run.keyframes.size()); ++k)
+    AddPoints(options, k, random, run);
   for (int a = 0; a < std::min(options.num_annotated, options.num_frames); ++a) {
     const int i = a * (options.num_frames - 1) / std::max(1, options.num_annotated - 1);
     run.annotated_frames.push_back(Annotate(run.frames[static_cast<std::size_t>(i)], random));
   }
   run.num_maps = options.num_maps;
   run.wall_time_s = 0.033 * options.num_frames;
-  run.counters = {{"keyframe.enough_points", 61}, {"keyframe.too_soon", 30},
-                  {"culling.points_seldom_found", 1201}, {"culling.keyframes_redundant", 7}};
+  run.counters = {{"keyframe.enough_points", 61},
+                  {"keyframe.too_soon", 30},
+                  {"culling.points_seldom_found", 1201},
+                  {"culling.keyframes_redundant", 7}};
   return fake;
 }
 
@@ -183,27 +188,32 @@ ReportData MakeFakeReportData(const FakeRun& fake, bool with_truth) {
   ReportData data;
   data.sequence = "kitti/sequences/00 <made up>";
   const bool any_map = !fake.run.keyframes.empty();
-  data.status = !any_map                  ? ReportStatus::kFailed
-                : fake.run.num_maps > 1   ? ReportStatus::kPartial
-                                          : ReportStatus::kOk;
+  data.status = !any_map                ? ReportStatus::kFailed
+                : fake.run.num_maps > 1 ? ReportStatus::kPartial
+                                        : ReportStatus::kOk;
   data.status_label = !any_map ? "FAILED" : fake.run.num_maps > 1 ? "PARTIAL" : "OK";
   data.summary = any_map ? "The camera was tracked in 155 of 160 frames (97 %)."
                          : "No map could be started: no frame has a pose.";
   data.advice = any_map ? ""
                         : "In 121 of 160 frames: the camera has hardly moved since the reference "
                           "frame: a map needs sideways motion.";
-  data.key_numbers = {{"Position error", with_truth ? "0.312" : "n/a", "m", "ATE RMSE after alignment"},
-                      {"Coverage", "96.9", "%", "155 of 160 frames"},
-                      {"Frames", "160", "", ""},
-                      {"Keyframes", fmt::format("{}", fake.run.keyframes.size()), "", ""},
-                      {"Map points", fmt::format("{}", fake.run.points.size()), "", ""},
-                      {"Speed", "30.3", "frames/s", "whole run"},
-                      {"Tracking", "18.9", "ms", "median per frame"},
-                      {"Peak memory", "148", "MB", ""}};
-  data.tables = {{"Accuracy", {{"ATE RMSE", "0.3121", "m", ""}, {"ATE median", "0.2711", "m", ""},
-                               {"KITTI t_rel", "0.81", "%", "4 segments"}}},
-                 {"Coverage", {{"coverage", "0.969", "", "frames with a pose / frames"},
-                               {"longest run", "155", "frames", ""}, {"maps", "1", "", ""}}}};
+  data.key_numbers = {
+      {"Position error", with_truth ? "0.312" : "n/a", "m", "ATE RMSE after alignment"},
+      {"Coverage", "96.9", "%", "155 of 160 frames"},
+      {"Frames", "160", "", ""},
+      {"Keyframes", fmt::format("{}", fake.run.keyframes.size()), "", ""},
+      {"Map points", fmt::format("{}", fake.run.points.size()), "", ""},
+      {"Speed", "30.3", "fps", "whole run"},
+      {"Tracking", "18.9", "ms", "median per frame"},
+      {"Peak memory", "148", "MB", ""}};
+  data.tables = {{"Accuracy",
+                  {{"ATE RMSE", "0.3121", "m", ""},
+                   {"ATE median", "0.2711", "m", ""},
+                   {"KITTI t_rel", "0.81", "%", "4 segments"}}},
+                 {"Coverage",
+                  {{"coverage", "0.969", "", "frames with a pose / frames"},
+                   {"longest run", "155", "frames", ""},
+                   {"maps", "1", "", ""}}}};
   if (with_truth) {
     data.ground_truth = fake.truth;
     data.ground_truth_view = TopView::kXZ;
@@ -218,11 +228,14 @@ ReportData MakeFakeReportData(const FakeRun& fake, bool with_truth) {
       data.errors.push_back({pose.timestamp_ns, error});
       sum += error * error;
     }
-    data.ate_rmse_m = std::sqrt(sum / std::max<double>(1.0, static_cast<double>(data.errors.size())));
+    data.ate_rmse_m =
+        std::sqrt(sum / std::max<double>(1.0, static_cast<double>(data.errors.size())));
   }
-  data.provenance = {"", {{"version", "0.1.0", "", ""}, {"revision", "754d561", "", ""},
-                          {"processor", "AMD EPYC (2 threads)", "", ""},
-                          {"calibration", "calib.txt (pinhole)", "", ""}}};
+  data.provenance = {"",
+                     {{"version", "0.1.0", "", ""},
+                      {"revision", "754d561", "", ""},
+                      {"processor", "AMD EPYC (2 threads)", "", ""},
+                      {"calibration", "calib.txt (pinhole)", "", ""}}};
   data.configuration = "features:\n  kind: orb\n  max_features: 2000  # per image\nseed: 0\n";
   return data;
 }

@@ -11,7 +11,7 @@ namespace lift_slam {
 // and for looking at the report. Nothing in it is measured.
 struct FakeRunOptions {
   int num_frames = 160;
-  int num_maps = 1;          // 0: never initialised; more than 1: lost in between
+  int num_maps = 1;  // 0: never initialised; more than 1: lost in between
   int points_per_keyframe = 60;
   int num_annotated = 6;
   double map_units_per_metre = 0.08;
@@ -19,7 +19,7 @@ struct FakeRunOptions {
 
 struct FakeRun {
   RunRecord run;
-  Trajectory truth;        // metres, first-camera frame as in KITTI
+  Trajectory truth;  // metres, first-camera frame as in KITTI
   Sim3d truth_from_map;
 };
 

@@ -21,16 +21,25 @@ std::ptrdiff_t CountTracked(const AnnotatedFrame& frame) {
                        [](const AnnotatedFrame::Mark& mark) { return mark.tracked; });
 }
 
+// Index of the run's first tracked frame; -1: none.
+std::int64_t FirstWithMap(const RunRecord& run) {
+  for (const FrameRecord& frame : run.frames) {
+    if (frame.state == TrackingState::kTracking) return frame.frame_index;
+  }
+  return -1;
+}
+
 // The frames of special interest, by their place in RunRecord::annotated_frames.
 struct Special {
   std::optional<std::size_t> first_with_map, worst;
 };
 
-Special FindSpecial(const std::vector<AnnotatedFrame>& frames) {
+Special FindSpecial(const RunRecord& run) {
+  const std::vector<AnnotatedFrame>& frames = run.annotated_frames;
   Special special;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (frames[i].state != TrackingState::kTracking) continue;
-    if (!special.first_with_map) special.first_with_map = i;
+    if (frames[i].frame_index == FirstWithMap(run)) special.first_with_map = i;
     if (!special.worst || CountTracked(frames[i]) < CountTracked(frames[*special.worst])) {
       special.worst = i;
     }
@@ -56,7 +65,8 @@ std::string FrameHtml(const AnnotatedFrame& frame, const char* remark) {
   const cv::Mat picture = DrawTrackedPoints(frame, kMaxWidthPx);
   if (picture.empty()) return {};
   return fmt::format(
-      "<figure><img alt=\"frame {0}\" width=\"{1}\" height=\"{2}\" src=\"{3}\"><figcaption><b>Frame "
+      "<figure><img alt=\"frame {0}\" width=\"{1}\" height=\"{2}\" "
+      "src=\"{3}\"><figcaption><b>Frame "
       "{0}</b>{4} &middot; {5} &middot; {6} tracked, {7} unmatched</figcaption></figure>\n",
       frame.frame_index, picture.cols, picture.rows, JpegDataUri(picture, 78), remark,
       EscapeXml(Name(frame.state)), CountTracked(frame),
@@ -68,12 +78,15 @@ std::string FrameHtml(const AnnotatedFrame& frame, const char* remark) {
 std::string FrameGalleryHtml(const RunRecord& run) {
   const std::vector<AnnotatedFrame>& frames = run.annotated_frames;
   if (frames.empty()) return {};
-  const Special special = FindSpecial(frames);
+  const Special special = FindSpecial(run);
+  const bool wide = frames.front().image.width() > 2 * frames.front().image.height();
   std::string html =
-      "<p class=\"note\"><i class=\"dot\" style=\"margin-left:0\"></i>tracked map point <i class=\"dot "
-      "u\"></i>feature without a map point</p><br>\n<div class=\"frames\">\n";
+      "<p class=\"note\"><i class=\"dot\" style=\"margin-left:0\"></i>tracked map point <i "
+      "class=\"dot "
+      "u\"></i>feature without a map point</p><br>\n";
+  html += wide ? "<div class=\"frames wide-frames\">\n" : "<div class=\"frames\">\n";
   for (const std::size_t i : Chosen(frames, special)) {
-    const char* remark = special.first_with_map == i ? ", first with a map"
+    const char* remark = special.first_with_map == i ? ", first with the map"
                          : special.worst == i        ? ", fewest tracked points"
                                                      : "";
     html += FrameHtml(frames[i], remark);

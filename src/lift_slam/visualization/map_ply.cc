@@ -28,8 +28,8 @@ void PutVertex(const Eigen::Vector3d& position, Rgb color, std::int32_t map_inde
 
 void WriteMapPly(const RunRecord& run, std::ostream& stream) {
   stream << "ply\nformat binary_little_endian 1.0\n"
-         << "comment " << run.points.size() << " map points in grey, then "
-         << run.keyframes.size() << " keyframe cameras in orange; map units\n"
+         << "comment " << run.points.size() << " map points in grey, then " << run.keyframes.size()
+         << " keyframe cameras in orange; map units\n"
          << "element vertex " << run.points.size() + run.keyframes.size() << '\n'
          << "property float x\nproperty float y\nproperty float z\n"
          << "property uchar red\nproperty uchar green\nproperty uchar blue\n"

@@ -39,6 +39,12 @@ Interval IntervalOf(const std::vector<double>& points, const std::vector<double>
   return {range.min - margin, range.max + margin};
 }
 
+// About its middle, to at least this length.
+void Grow(double length, Interval& interval) {
+  const double add = 0.5 * std::max(0.0, length - (interval.max - interval.min));
+  interval = {interval.min - add, interval.max + add};
+}
+
 double SizeOf(const ScenePath& path) {
   AxisRange right, up;
   right.Add(path.right);
@@ -53,7 +59,8 @@ std::uint8_t VisibleGray(std::uint8_t gray) {
 
 }  // namespace
 
-MapExtent ExtentOf(const RunRecord& run, const ReportScene& scene, const ScenePath& path) {
+MapExtent ExtentOf(const RunRecord& run, const ReportScene& scene, const ScenePath& path,
+                   double aspect) {
   std::vector<double> right, up;
   for (const PointRecord& point : run.points) {
     if (!scene.Shows(path, point.map_index)) continue;
@@ -63,7 +70,9 @@ MapExtent ExtentOf(const RunRecord& run, const ReportScene& scene, const ScenePa
     up.push_back(x.y());
   }
   const double size = SizeOf(path);
-  const Interval r = IntervalOf(right, path.right, size), u = IntervalOf(up, path.up, size);
+  Interval r = IntervalOf(right, path.right, size), u = IntervalOf(up, path.up, size);
+  Grow(aspect * (u.max - u.min), r);
+  Grow((r.max - r.min) / aspect, u);
   return {r.min, r.max, u.min, u.max};
 }
 
@@ -73,16 +82,19 @@ PlotImage RasterOfPoints(const RunRecord& run, const ReportScene& scene, const S
   const double px_per_unit = long_side_px / std::max(width, height);
   const cv::Size size(std::max(2, cvCeil(width * px_per_unit)),
                       std::max(2, cvCeil(height * px_per_unit)));
+  const int dot_px = run.points.size() > 15'000 ? 2 : 3;
   cv::Mat image(size, CV_8UC4, cv::Scalar::all(0));
   for (const PointRecord& point : run.points) {
     if (!scene.Shows(path, point.map_index)) continue;
     const Eigen::Vector3d x = scene.OnPage(point.position);
     const double column = (x.x() - e.right_min) / width * size.width;
     const double row = (e.up_max - x.y()) / height * size.height;
-    if (!(column >= 0.0 && column < size.width - 1 && row >= 0.0 && row < size.height - 1)) continue;
+    if (!(column >= 0.0 && column < size.width - 1 && row >= 0.0 && row < size.height - 1))
+      continue;
+    // Few points are drawn larger.
     const std::uint8_t gray = VisibleGray(point.gray);
-    image(cv::Rect(static_cast<int>(column), static_cast<int>(row), 2, 2)) =
-        cv::Scalar(gray, gray, gray, 215);
+    const cv::Rect dot(static_cast<int>(column), static_cast<int>(row), dot_px, dot_px);
+    image(dot & cv::Rect({0, 0}, size)) = cv::Scalar(gray, gray, gray, 215);
   }
   return {PngDataUri(image), e.right_min, e.right_max, e.up_min, e.up_max};
 }

@@ -9,7 +9,9 @@ namespace lift_slam {
 struct MapExtent {
   double right_min = 0.0, right_max = 1.0, up_min = 0.0, up_max = 1.0;
 };
-MapExtent ExtentOf(const RunRecord& run, const ReportScene& scene, const ScenePath& path);
+// Grown to `aspect` (width / height).
+MapExtent ExtentOf(const RunRecord& run, const ReportScene& scene, const ScenePath& path,
+                   double aspect);
 
 // The points of the path's map from above as a transparent PNG, in grey levels that can be seen on
 // light and on dark; `long_side_px` is its larger size.

@@ -113,6 +113,23 @@ std::string PathData(const ScenePath& path, const Box& box) {
   return Encode(values);
 }
 
+// Depth of the drawn camera pyramids: small enough that neighbours stay apart.
+double FrustumSize(const RunRecord& run, const ReportScene& scene, const ScenePath& path,
+                   const Box& box) {
+  std::vector<double> steps;
+  std::optional<Eigen::Vector3d> before;
+  for (const KeyFrameRecord& keyframe : run.keyframes) {
+    if (!scene.Shows(path, keyframe.map_index)) continue;
+    const Eigen::Vector3d centre = scene.OnPage(keyframe.pose.world_from_cam.translation);
+    if (before) steps.push_back((centre - *before).norm() / box.size);
+    before = centre;
+  }
+  if (steps.empty()) return 0.03;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return std::clamp(0.8 * *middle, 0.008, 0.03);
+}
+
 // Centre and the unit axes right, down and forward of each keyframe: 12 numbers.
 std::string KeyframeData(const RunRecord& run, const ReportScene& scene, const ScenePath& path,
                          const Box& box) {
@@ -123,7 +140,8 @@ std::string KeyframeData(const RunRecord& run, const ReportScene& scene, const S
   std::vector<float> values;
   for (std::size_t i = 0; i < shown.size(); i += StrideFor(shown.size(), kMaxKeyframes)) {
     const Rigid3d& world_from_cam = shown[i]->pose.world_from_cam;
-    const Eigen::Vector3d centre = (scene.OnPage(world_from_cam.translation) - box.corner) / box.size;
+    const Eigen::Vector3d centre =
+        (scene.OnPage(world_from_cam.translation) - box.corner) / box.size;
     for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(centre[k]));
     const Eigen::Matrix3d axes = world_from_cam.RotationMatrix();
     for (int column = 0; column < 3; ++column) {
@@ -143,9 +161,10 @@ std::string SceneJson(const RunRecord& run, const ReportScene& scene, const Scen
   const bool known = pinhole.fx > 0.0 && pinhole.fy > 0.0 && pinhole.width > 0;
   return fmt::format(
       "{{\"name\":\"map {}\",\"count\":{},{},\"path\":\"{}\",\"truth\":\"{}\",\"keyframes\":\"{}\","
-      "\"half\":[{:.4f},{:.4f}]}}",
+      "\"frustum\":{:.4f},\"half\":[{:.4f},{:.4f}]}}",
       path.map_index + 1, count, point_data, PathData(path, box), PathData(scene.truth(), box),
-      KeyframeData(run, scene, path, box), known ? 0.5 * pinhole.width / pinhole.fx : 0.6,
+      KeyframeData(run, scene, path, box), FrustumSize(run, scene, path, box),
+      known ? 0.5 * pinhole.width / pinhole.fx : 0.6,
       known ? 0.5 * pinhole.height / pinhole.fy : 0.45);
 }
 
@@ -162,7 +181,8 @@ std::string MapViewerHtml(const RunRecord& run, const ReportScene& scene) {
   const bool several = scene.paths().size() > 1;
   return fmt::format(
       "<div class=\"viewer\" id=\"viewer\"><canvas tabindex=\"0\" role=\"img\" aria-label=\"Map in "
-      "three dimensions: drag to turn\"></canvas>{}<p class=\"viewer-key\"><i class=\"k1\"></i>camera "
+      "three dimensions: drag to turn\"></canvas>{}<p class=\"viewer-key\"><i "
+      "class=\"k1\"></i>camera "
       "path <i class=\"k2\"></i>keyframes{}</p></div>\n"
       "<script type=\"application/json\" id=\"viewer-data\">[{}]</script>\n<script>{}</script>\n",
       several ? fmt::format("<select aria-label=\"map\">{}</select>", choices) : "",

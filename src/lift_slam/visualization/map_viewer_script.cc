@@ -12,16 +12,32 @@ const char* MapViewerScript() {
   const scenes = JSON.parse(document.getElementById("viewer-data").textContent).map((s) => ({
     xyz: new Uint16Array(bytes(s.xyz)), gray: new Uint8Array(bytes(s.gray)), count: s.count,
     path: new Float32Array(bytes(s.path)), truth: new Float32Array(bytes(s.truth)),
-    keyframes: new Float32Array(bytes(s.keyframes)), half: s.half}));
-  const home = {azimuth: -0.5, elevation: 0.62, distance: 1.35, target: [0.5, 0.5, 0.5]};
+    keyframes: new Float32Array(bytes(s.keyframes)), half: s.half, frustum: s.frustum}));
+  const home = {azimuth: -0.45, elevation: 0.7};
   let view, scene, pending = false;
 
-  // The start looks along the world's "up on the page", from behind and above the middle.
-  function show(index) {
-    scene = scenes[index];
-    view = {...home, target: middle(scene)};
+  // The start looks along the world's "up on the page", from behind and above the middle, from so
+  // far that the path and most of the points are seen.
+  function goHome() {
+    view = {...home, target: middle(scene), distance: 0.1};
+    const width = canvas.clientWidth, height = canvas.clientHeight, p = [0, 0, 0];
+    const step = Math.max(1, Math.floor(scene.count / 2000)), path = scene.path;
+    const inside = (project, x, y, z) => project(x, y, z, p) && p[0] > 0.04 * width &&
+      p[0] < 0.96 * width && p[1] > 0.05 * height && p[1] < 0.92 * height;
+    for (; view.distance < 4; view.distance *= 1.04) {
+      const project = projector(width, height);
+      let seen = 0, asked = 0, path_seen = true;
+      for (let i = 0; i < scene.count; i += step, ++asked) {
+        seen += inside(project, scene.xyz[3 * i] / 65535, scene.xyz[3 * i + 1] / 65535, scene.xyz[3 * i + 2] / 65535);
+      }
+      for (let i = 0; i < path.length && path_seen; i += 3) {
+        path_seen = isNaN(path[i]) || inside(project, path[i], path[i + 1], path[i + 2]);
+      }
+      if (path_seen && seen >= 0.93 * asked) break;
+    }
     redraw();
   }
+  function show(index) { scene = scenes[index]; goHome(); }
   function middle(s) {
     const low = [9, 9, 9], high = [-9, -9, -9];
     const step = Math.max(1, Math.floor(s.count / 3000));
@@ -61,7 +77,7 @@ const char* MapViewerScript() {
     const p = [0, 0, 0];
     for (let i = 0; i < scene.count; ++i) {
       if (!project(scene.xyz[3 * i] / 65535, scene.xyz[3 * i + 1] / 65535, scene.xyz[3 * i + 2] / 65535, p)) continue;
-      const g = 78 + scene.gray[i] * 0.69 | 0, color = 0xff000000 | g << 16 | g << 8 | g;
+      const g = 70 + scene.gray[i] * 0.6 | 0, color = 0xff000000 | g << 16 | g << 8 | g;
       const x0 = p[0] | 0, y0 = p[1] | 0;
       if (x0 < 0 || y0 < 0 || x0 > width - size || y0 > height - size) continue;
       for (let y = y0; y < y0 + size; ++y) for (let x = x0; x < x0 + size; ++x) {
@@ -86,7 +102,7 @@ const char* MapViewerScript() {
 
   // Keyframes as small pyramids that open along the viewing direction.
   function drawKeyframes(project, scale) {
-    const k = scene.keyframes, size = 0.016, p = [0, 0, 0];
+    const k = scene.keyframes, size = scene.frustum, p = [0, 0, 0];
     context.beginPath();
     for (let i = 0; i + 11 < k.length; i += 12) {
       const corner = (a, b, c) => {
@@ -147,7 +163,7 @@ const char* MapViewerScript() {
     view.distance = Math.max(0.05, Math.min(6, view.distance * Math.exp(0.0012 * e.deltaY)));
     e.preventDefault(); redraw();
   }, {passive: false});
-  canvas.addEventListener("dblclick", () => { view = {...home, target: middle(scene)}; redraw(); });
+  canvas.addEventListener("dblclick", goHome);
   canvas.addEventListener("keydown", (e) => {
     const keys = {ArrowLeft: [-12, 0], ArrowRight: [12, 0], ArrowUp: [0, -12], ArrowDown: [0, 12]};
     if (e.key === "+" || e.key === "-") view.distance *= e.key === "+" ? 0.9 : 1.1;

@@ -150,13 +150,14 @@ PlotLayout LayOut(const Plot& plot) {
   layout.width = right - layout.left;
   const int rows = PlaceLegend(layout.left, right, layout.legend);
   layout.top = rows > 0 ? rows * kLegendRow + 8.0 : 10.0;
+  if (!plot.bands.empty()) layout.top += 6.0;
   layout.height = plot.height_px - layout.top - 44.0;
   ChooseRanges(plot, layout);
   if (plot.equal_aspect) MakeEqualAspect(layout);
-  layout.y_ticks = MakeTicks(layout.y_range, TickCount(layout.height, kYTickSpacing),
-                             plot.y.integers);
-  layout.x_ticks = MakeTicks(layout.x_range, TickCount(layout.width, kXTickSpacing),
-                             plot.x.integers);
+  layout.y_ticks =
+      MakeTicks(layout.y_range, TickCount(layout.height, kYTickSpacing), plot.y.integers);
+  layout.x_ticks =
+      MakeTicks(layout.x_range, TickCount(layout.width, kXTickSpacing), plot.x.integers);
   return layout;
 }
 

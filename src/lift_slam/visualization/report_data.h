@@ -36,21 +36,21 @@ struct ErrorSample {
 // What the report shows besides the RunRecord itself.
 struct ReportData {
   std::string title = "lift_slam run";
-  std::string sequence;            // name or path
+  std::string sequence;  // name or path
   ReportStatus status = ReportStatus::kOk;
-  std::string status_label;        // "OK", "PARTIAL", "FAIL_INIT", "FAIL_LOST"
-  std::string summary;             // one or two sentences: what happened
-  std::string advice;              // what may help; empty when nothing needs help
-  std::vector<ReportRow> key_numbers;   // about eight, shown large at the top
-  std::vector<ReportTable> tables;      // all numbers
-  Trajectory ground_truth;         // camera poses in metres; may be empty
+  std::string status_label;            // "OK", "PARTIAL", "FAIL_INIT", "FAIL_LOST"
+  std::string summary;                 // one or two sentences: what happened
+  std::string advice;                  // what may help; empty when nothing needs help
+  std::vector<ReportRow> key_numbers;  // about eight, shown large at the top
+  std::vector<ReportTable> tables;     // all numbers
+  Trajectory ground_truth;             // camera poses in metres; may be empty
   TopView ground_truth_view = TopView::kXY;
   // Puts the run into the ground truth's frame, in metres; nothing: the run is shown as it is.
   std::optional<Sim3d> truth_from_map;
   std::vector<ErrorSample> errors;  // by time; of the aligned final trajectory
   double ate_rmse_m = 0.0;          // drawn with the errors
   ReportTable provenance;
-  std::string configuration;        // effective, YAML text
+  std::string configuration;  // effective, YAML text
 };
 
 }  // namespace lift_slam

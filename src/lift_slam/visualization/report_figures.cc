@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMaxBars = 320;
+constexpr double kMapPlotAspect = 482.0 / 408.0;  // frame of a 560 x 480 plot with one legend row
 constexpr std::array kMapColors = {PlotColor::kBlue, PlotColor::kVermilion, PlotColor::kGreen,
                                    PlotColor::kPurple, PlotColor::kSky};
 
@@ -22,8 +23,14 @@ PlotColor ColorOfMap(int map_index) {
   return kMapColors[static_cast<std::size_t>(std::max(0, map_index)) % kMapColors.size()];
 }
 
-std::string PathLabel(const ScenePath& path) {
-  return path.map_index < 1 ? "estimate" : fmt::format("map {}", path.map_index + 1);
+std::string PathLabel(const ReportScene& scene, const ScenePath& path) {
+  return scene.paths().size() == 1 ? "estimate" : fmt::format("map {}", path.map_index + 1);
+}
+
+void AddTruth(const ReportScene& scene, const std::vector<double>& x, const std::vector<double>& y,
+              Plot& plot) {
+  if (scene.truth().empty()) return;
+  plot.series.push_back({"ground truth", SeriesKind::kLine, PlotColor::kGray, x, y, 4.5});
 }
 
 // Open circle at the first, filled circle at the last position.
@@ -50,6 +57,13 @@ Plot TopViewPlot(const ReportScene& scene) {
   return plot;
 }
 
+// The same for all plots against time.
+PlotAxis TimeAxis(const ReportScene& scene) {
+  PlotAxis axis{"time [s]", false, 0.0, {}};
+  if (scene.duration_s() > 0.0) axis.max = scene.duration_s();
+  return axis;
+}
+
 struct StateLook {
   const char* label;
   PlotColor color;
@@ -59,7 +73,7 @@ struct StateLook {
 StateLook LookOf(TrackingState state) {
   switch (state) {
     case TrackingState::kInitializing:
-      return {"initialising", PlotColor::kOrange, true};
+      return {"initializing", PlotColor::kOrange, true};
     case TrackingState::kTracking:
       return {"tracking", PlotColor::kGreen, false};
     case TrackingState::kLost:
@@ -137,8 +151,8 @@ int LimitHeight(Plot& plot) {
   const double usual = sorted[sorted.size() * 97 / 100];
   if (usual <= 0.0 || sorted.back() < 2.5 * usual) return 0;
   plot.y.max = 1.4 * usual;
-  return static_cast<int>(std::count_if(totals.begin(), totals.end(),
-                                        [&](double t) { return t > *plot.y.max; }));
+  return static_cast<int>(
+      std::count_if(totals.begin(), totals.end(), [&](double t) { return t > *plot.y.max; }));
 }
 
 std::string StageNote(const RunRecord& run, std::size_t per_bar, int beyond) {
@@ -161,13 +175,10 @@ Figure TopViewFigure(const ReportScene& scene, const ScenePath& path) {
   Figure figure{"Top view", TopViewPlot(scene), {}};
   Plot& plot = figure.plot;
   plot.description = "Trajectory from above";
-  if (!scene.truth().empty()) {
-    plot.series.push_back({"ground truth", SeriesKind::kLine, PlotColor::kInk, scene.truth().right,
-                           scene.truth().up, 2.6});
-  }
+  AddTruth(scene, scene.truth().right, scene.truth().up, plot);
   const PlotColor color = ColorOfMap(path.map_index);
   plot.series.push_back(
-      {PathLabel(path), SeriesKind::kLine, color, path.right, path.up, 1.8});
+      {PathLabel(scene, path), SeriesKind::kLine, color, path.right, path.up, 1.8});
   AddStartAndEnd(path, color, plot);
   return figure;
 }
@@ -176,17 +187,12 @@ Figure HeightFigure(const ReportScene& scene) {
   Figure figure{"Height", {}, {}};
   Plot& plot = figure.plot;
   plot.description = "Height of the camera over time";
-  plot.x.label = "time [s]";
+  plot.x = TimeAxis(scene);
   plot.y.label = scene.HeightLabel();
-  if (!scene.truth().empty()) {
-    plot.series.push_back({"ground truth", SeriesKind::kLine, PlotColor::kInk,
-                           scene.truth().time_s, scene.truth().height, 2.6});
-  }
+  AddTruth(scene, scene.truth().time_s, scene.truth().height, plot);
   for (const ScenePath& path : scene.paths()) {
-    const std::string label =
-        scene.paths().size() == 1 ? "estimate" : fmt::format("map {}", path.map_index + 1);
-    plot.series.push_back({label, SeriesKind::kLine, ColorOfMap(path.map_index), path.time_s,
-                           path.height, 1.6});
+    plot.series.push_back({PathLabel(scene, path), SeriesKind::kLine, ColorOfMap(path.map_index),
+                           path.time_s, path.height, 1.6});
   }
   return figure;
 }
@@ -195,14 +201,14 @@ Figure ErrorFigure(const ReportScene& scene, const ReportData& data) {
   Figure figure{"Position error", {}, {}};
   Plot& plot = figure.plot;
   plot.description = "Distance to the ground truth over time";
-  plot.x.label = "time [s]";
+  plot.x = TimeAxis(scene);
   plot.y.label = "error [m]";
   plot.y.min = 0.0;
   PlotSeries series{"error", SeriesKind::kLine, PlotColor::kBlue, {}, {}, 1.6};
   std::vector<double> steps;
   for (std::size_t i = 1; i < data.errors.size(); ++i) {
-    steps.push_back(static_cast<double>(data.errors[i].timestamp_ns -
-                                        data.errors[i - 1].timestamp_ns));
+    steps.push_back(
+        static_cast<double>(data.errors[i].timestamp_ns - data.errors[i - 1].timestamp_ns));
   }
   std::vector<double> sorted = steps;
   std::sort(sorted.begin(), sorted.end());
@@ -235,10 +241,11 @@ Figure TrackingFigure(const RunRecord& run) {
         return frame.world_from_cam ? static_cast<double>(frame.*count) : kGap;
       };
     };
-    plot.series = {FrameSeries(run, "matched", PlotColor::kSky, when_posed(&FrameRecord::num_matches)),
-                   FrameSeries(run, "tracked (agree with the pose)", PlotColor::kBlue,
-                               when_posed(&FrameRecord::num_inliers)),
-                   KeyframeRug(run)};
+    plot.series = {
+        FrameSeries(run, "matched", PlotColor::kSky, when_posed(&FrameRecord::num_matches)),
+        FrameSeries(run, "tracked (agree with the pose)", PlotColor::kBlue,
+                    when_posed(&FrameRecord::num_inliers)),
+        KeyframeRug(run)};
     return figure;
   }
   figure.title = "Features and matches per frame";
@@ -258,13 +265,12 @@ Figure StageTimesFigure(const RunRecord& run) {
   plot.x = {"frame", /*integers=*/true, {}, {}};
   plot.y = {"time [ms]", false, 0.0, {}};
   const std::size_t per_bar = (run.frames.size() + kMaxBars - 1) / kMaxBars;
-  plot.series = {
-      TimeBars(run, std::max<std::size_t>(1, per_bar), "feature extraction", PlotColor::kSky,
-               &FrameRecord::extract_ms),
-      TimeBars(run, std::max<std::size_t>(1, per_bar), "tracking", PlotColor::kBlue,
-               &FrameRecord::track_ms),
-      TimeBars(run, std::max<std::size_t>(1, per_bar), "local mapping", PlotColor::kOrange,
-               &FrameRecord::map_ms)};
+  plot.series = {TimeBars(run, std::max<std::size_t>(1, per_bar), "feature extraction",
+                          PlotColor::kSky, &FrameRecord::extract_ms),
+                 TimeBars(run, std::max<std::size_t>(1, per_bar), "tracking", PlotColor::kBlue,
+                          &FrameRecord::track_ms),
+                 TimeBars(run, std::max<std::size_t>(1, per_bar), "local mapping",
+                          PlotColor::kOrange, &FrameRecord::map_ms)};
   const int beyond = LimitHeight(plot);
   if (!run.frames.empty()) {
     const auto& bars = plot.series.front().x;
@@ -280,9 +286,10 @@ Figure MapFigure(const RunRecord& run, const ReportScene& scene, const ScenePath
   Figure figure{"Map from above", TopViewPlot(scene), {}};
   Plot& plot = figure.plot;
   plot.description = figure.title;
-  const MapExtent extent = ExtentOf(run, scene, path);
+  const MapExtent extent = ExtentOf(run, scene, path, kMapPlotAspect);
   plot.images.push_back(RasterOfPoints(run, scene, path, extent, 1000));
-  plot.series.push_back({"camera path", SeriesKind::kLine, PlotColor::kBlue, path.right, path.up, 1.6});
+  plot.series.push_back(
+      {"camera path", SeriesKind::kLine, PlotColor::kBlue, path.right, path.up, 1.6});
   PlotSeries keyframes{"keyframe", SeriesKind::kPoints, PlotColor::kOrange, {}, {}, 4.4};
   for (const KeyFrameRecord& keyframe : run.keyframes) {
     if (!scene.Shows(path, keyframe.map_index)) continue;

@@ -19,9 +19,10 @@ constexpr std::size_t kMaxMapsDrawn = 4;
 std::string FigureHtml(const Figure& figure, const char* css_class = "") {
   const std::string note =
       figure.note.empty() ? "" : "<p class=\"note\">" + EscapeXml(figure.note) + "</p>";
-  return fmt::format("<figure class=\"{}\"><figcaption>{}</figcaption><div class=\"scroll\">{}</div>{}"
-                     "</figure>\n",
-                     css_class, EscapeXml(figure.title), RenderSvg(figure.plot), note);
+  return fmt::format(
+      "<figure class=\"{}\"><figcaption>{}</figcaption><div class=\"scroll\">{}</div>{}"
+      "</figure>\n",
+      css_class, EscapeXml(figure.title), RenderSvg(figure.plot), note);
 }
 
 std::string Section(const char* id, const char* title, const std::string& content) {
@@ -42,17 +43,25 @@ std::string HeaderHtml(const ReportData& data) {
                      : data.status == ReportStatus::kPartial ? "s-mid"
                                                              : "s-bad";
   return fmt::format(
-      "<header><p class=\"kicker\">{}</p><h1>{}</h1>\n<div class=\"status {}\" id=\"status\"><b>{}</b>"
+      "<header><p class=\"kicker\">{}</p><h1>{}</h1>\n<div class=\"status {}\" "
+      "id=\"status\"><b>{}</b>"
       "<div>{}{}</div></div>\n{}</header>\n",
       EscapeXml(data.title), EscapeXml(data.sequence), look, EscapeXml(data.status_label),
       Paragraph(data.summary), Paragraph(data.advice), KeyNumbersHtml(data.key_numbers));
 }
 
 // Instead of the trajectory when no map was made.
-std::string NoMapNotice(const ReportData& data) {
-  return fmt::format(
-      "<div class=\"notice\"><strong>No map was made, so there is no trajectory.</strong>{}</div>\n",
-      EscapeXml(data.advice));
+std::string NoMapNotice(const RunRecord& run) {
+  std::string reasons;
+  for (const FrameRefusal refusal : RefusalsByCount(run)) {
+    if (refusal == FrameRefusal::kFirstFrame) continue;
+    reasons += fmt::format("<li><b>{} of {} frames</b> {}</li>\n",
+                           run.refusals[static_cast<std::size_t>(refusal)], run.frames.size(),
+                           EscapeXml(Explain(refusal)));
+  }
+  return "<div class=\"notice\"><strong>No map was made, so there is no "
+         "trajectory.</strong><ul>\n" +
+         reasons + "</ul></div>\n";
 }
 
 // The largest maps, by time; a note says how many are left out.
@@ -77,8 +86,8 @@ std::string NoteHtml(const std::string& note) {
   return note.empty() ? "" : "<p class=\"note\">" + EscapeXml(note) + "</p>\n";
 }
 
-std::string TrajectoryHtml(const ReportScene& scene, const ReportData& data) {
-  if (scene.paths().empty()) return NoMapNotice(data);
+std::string TrajectoryHtml(const RunRecord& run, const ReportScene& scene, const ReportData& data) {
+  if (scene.paths().empty()) return NoMapNotice(run);
   Figure height = HeightFigure(scene);
   std::string note;
   const std::vector<const ScenePath*> maps = MapsToDraw(scene, note);
@@ -97,8 +106,9 @@ std::string TrajectoryHtml(const ReportScene& scene, const ReportData& data) {
   if (data.errors.empty()) {
     top.plot.height_px = height.plot.height_px = 420;
     if (!scene.aligned()) {
-      note = "A single camera cannot know the scale of the world: lengths are in map units, in the "
-             "frame of the map's first camera.";
+      note =
+          "A single camera cannot know the scale of the world: lengths are in map units, in the "
+          "frame of the map's first camera.";
     }
     return Pair(FigureHtml(top), FigureHtml(height)) + NoteHtml(note);
   }
@@ -141,8 +151,8 @@ std::string Scrolling(const std::string& table) {
 std::string BackgroundHtml(const ReportData& data) {
   std::string html;
   if (!data.provenance.rows.empty()) {
-    html += "<details open><summary>Provenance</summary>" +
-            TableHtml({"", data.provenance.rows}) + "</details>\n";
+    html += "<details open><summary>Provenance</summary>" + TableHtml({"", data.provenance.rows}) +
+            "</details>\n";
   }
   if (!data.configuration.empty()) {
     html += "<details><summary>Effective configuration</summary><pre>" +
@@ -161,11 +171,11 @@ std::string ReportHtml(const RunRecord& run, const ReportData& data) {
       "</head><body>\n",
       EscapeXml(data.sequence), EscapeXml(data.status_label), PlotStyleSheet(), ReportStyleSheet());
   html += HeaderHtml(data) + "<main>\n";
-  html += Section("trajectory", "Trajectory", TrajectoryHtml(scene, data));
+  html += Section("trajectory", "Trajectory", TrajectoryHtml(run, scene, data));
   const bool any_frame = !run.frames.empty();
   html += Section("tracking", "Tracking",
-                  (any_frame ? FigureHtml(TrackingFigure(run), "wide") : "") +
-                      "<br>" + Scrolling(RefusalsHtml(run)) + Scrolling(StatesHtml(run)));
+                  (any_frame ? FigureHtml(TrackingFigure(run), "wide") : "") + "<br>" +
+                      Scrolling(StatesHtml(run)) + Scrolling(RefusalsHtml(run)));
   html += Section("time", "Time",
                   (any_frame ? FigureHtml(StageTimesFigure(run), "wide") + "<br>" : "") +
                       Scrolling(StageTimesHtml(run.stage_times_ms)));

@@ -48,7 +48,10 @@ ReportScene::ReportScene(const RunRecord& run, const ReportData& data)
       view_(aligned_ ? data.ground_truth_view : TopView::kXZ),
       unit_(aligned_ ? "m" : "map units"),
       shown_from_map_(data.truth_from_map.value_or(Sim3d())) {
-  if (!run.frames.empty()) start_ns_ = run.frames.front().timestamp_ns;
+  if (!run.frames.empty()) {
+    start_ns_ = run.frames.front().timestamp_ns;
+    duration_s_ = Seconds(run.frames.back().timestamp_ns);
+  }
   AddPaths(run);
   if (aligned_) AddTruth(run, data.ground_truth);
 }

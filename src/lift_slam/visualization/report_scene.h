@@ -37,6 +37,7 @@ class ReportScene {
   // The part of the ground truth within the run's time; empty without alignment.
   const ScenePath& truth() const { return truth_; }
   double Seconds(std::int64_t timestamp_ns) const;
+  double duration_s() const { return duration_s_; }  // first to last frame
   // A point or camera centre of the run as (right, up, height), right-handed.
   Eigen::Vector3d OnPage(const Eigen::Vector3d& x_in_map) const;
   // A direction of the run's frame on the page, without scale.
@@ -54,6 +55,7 @@ class ReportScene {
   std::string unit_;
   Sim3d shown_from_map_;
   std::int64_t start_ns_ = 0;
+  double duration_s_ = 0.0;
   std::vector<ScenePath> paths_;
   ScenePath truth_;
 };

@@ -21,7 +21,7 @@ h2{font-size:19px;margin:44px 0 14px;padding-top:18px;border-top:1px solid var(-
 .s-ok{background:var(--ok-bg)}.s-ok b{color:var(--ok)}.s-ok b::before{content:"\2713"}
 .s-mid{background:var(--mid-bg)}.s-mid b{color:var(--mid)}.s-mid b::before{content:"!"}
 .s-bad{background:var(--bad-bg)}.s-bad b{color:var(--bad)}.s-bad b::before{content:"\2715"}
-.key{display:grid;grid-template-columns:repeat(auto-fit,minmax(128px,1fr));gap:1px;margin:0;background:var(--rule);
+.key{display:grid;grid-template-columns:repeat(auto-fit,minmax(124px,1fr));gap:1px;margin:0;background:var(--rule);
 border:1px solid var(--rule);border-radius:10px;overflow:hidden}
 .key div{background:var(--page);padding:12px 16px}
 .key dt{color:var(--soft);font-size:13px}.key dd{margin:0;font-size:23px;line-height:1.3;font-weight:600;font-variant-numeric:tabular-nums;white-space:nowrap}
@@ -36,15 +36,16 @@ figcaption,.cap{font-size:14px;font-weight:600;margin:0 0 8px}
 .scroll{overflow-x:auto}
 .wide+.wide{margin-top:24px}
 .notice{background:var(--panel);border-radius:10px;padding:28px 28px;margin:0}
-.notice strong{display:block;font-size:20px;line-height:1.35;font-weight:600;margin-bottom:6px}
+.notice strong{display:block;font-size:21px;line-height:1.35;font-weight:600;margin-bottom:10px}
+.notice ul{margin:0;padding:0;list-style:none}.notice li{display:grid;grid-template-columns:180px 1fr;padding:3px 0}
 .viewer{position:relative;border-radius:8px;overflow:hidden;background:#13161b}
 .viewer canvas{display:block;width:100%;aspect-ratio:560/446;cursor:grab;touch-action:none}
 .viewer canvas:active{cursor:grabbing}.viewer canvas:focus-visible{outline:2px solid var(--bar);outline-offset:-2px}
 .viewer select{position:absolute;top:10px;right:10px}
-.viewer-key{position:absolute;left:12px;bottom:8px;margin:0;font-size:12px;color:#c6ced8;pointer-events:none}
+.viewer-key{position:absolute;left:12px;bottom:8px;margin:0;padding:2px 8px;border-radius:5px;background:#13161bd9;font-size:12px;color:#c6ced8;pointer-events:none}
 .viewer-key i{display:inline-block;width:14px;height:3px;margin:0 5px 3px 8px;border-radius:2px;background:#4aa8e8}
 .viewer-key .k1{margin-left:0}.viewer-key .k2{background:#f3a63a}.viewer-key .k3{background:#e8edf3}
-.frames{display:grid;grid-template-columns:repeat(auto-fill,minmax(340px,1fr));gap:22px 20px}
+.frames{display:grid;grid-template-columns:repeat(auto-fill,minmax(340px,1fr));gap:22px 20px}.wide-frames{grid-template-columns:repeat(auto-fill,minmax(440px,1fr))}
 .frames img{display:block;width:100%;height:auto;border-radius:6px;background:var(--panel)}
 .frames figcaption{font-weight:400;font-size:13px;margin:6px 0 0;color:var(--soft)}
 .frames figcaption b{color:var(--text);font-weight:600}
@@ -53,6 +54,7 @@ figcaption,.cap{font-size:14px;font-weight:600;margin:0 0 8px}
 table{border-collapse:collapse;width:100%;font-size:14px;font-variant-numeric:tabular-nums}
 caption{text-align:left;font-weight:600;padding:0 0 6px}
 th,td{padding:5px 14px 5px 0;text-align:left;vertical-align:top;border-top:1px solid var(--rule);font-weight:400}
+table.narrow{width:auto;min-width:440px}details th{width:200px}
 thead th{color:var(--soft);font-size:13px;border-top:0;padding-top:0}
 .num{text-align:right;white-space:nowrap}.val{overflow-wrap:anywhere}
 td.share{width:120px;padding-top:11px}.share i{display:block;height:8px;border-radius:2px;background:var(--bar);min-width:1px}
@@ -65,7 +67,7 @@ font:12.5px/1.5 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace}
 @media (max-width:820px){.pair{grid-template-columns:minmax(0,1fr)}.columns{columns:1}.wide .plot{min-width:720px}
 body{padding:20px 14px 40px}.status{flex-direction:column;gap:6px}}
 @media print{body{padding:0;max-width:none;font-size:12px}h2{break-after:avoid;margin-top:24px}figure,.key,.status,table{break-inside:avoid}
-.status,.key,.viewer,.share i{-webkit-print-color-adjust:exact;print-color-adjust:exact}.frames{grid-template-columns:repeat(3,1fr)}}
+.status,.key,.viewer,.share i{-webkit-print-color-adjust:exact;print-color-adjust:exact}.frames,.wide-frames{grid-template-columns:repeat(2,1fr)}}
 )css";
 }
 

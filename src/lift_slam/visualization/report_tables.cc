@@ -17,9 +17,15 @@ std::string WithSpaces(std::string_view name) {
   return EscapeXml(text);
 }
 
+std::string Capitalized(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
+  return text;
+}
+
 std::string ValueAndUnit(const ReportRow& row) {
   if (row.unit.empty()) return EscapeXml(row.value);
-  return fmt::format("{} <span class=\"unit\">{}</span>", EscapeXml(row.value), EscapeXml(row.unit));
+  return fmt::format("{} <span class=\"unit\">{}</span>", EscapeXml(row.value),
+                     EscapeXml(row.unit));
 }
 
 // The value below which `share` of the sorted values lie.
@@ -33,8 +39,8 @@ std::string ShareCells(int count, std::size_t total) {
   const double percent = total > 0 ? 100.0 * count / static_cast<double>(total) : 0.0;
   return fmt::format(
       "<td class=\"num\">{}</td><td class=\"num\">{:.1f} %</td>"
-      "<td class=\"share\"><i style=\"width:{:.1f}%\"></i></td>",
-      count, percent, percent);
+      "<td class=\"share\">{}</td>",
+      count, percent, count > 0 ? fmt::format("<i style=\"width:{:.1f}%\"></i>", percent) : "");
 }
 
 }  // namespace
@@ -42,9 +48,9 @@ std::string ShareCells(int count, std::size_t total) {
 std::string KeyNumbersHtml(const std::vector<ReportRow>& rows) {
   std::string html = "<dl class=\"key\">\n";
   for (const ReportRow& row : rows) {
-    html += fmt::format("<div><dt>{}</dt><dd>{}</dd>{}</div>\n", EscapeXml(row.name),
-                        ValueAndUnit(row),
-                        row.note.empty() ? "" : "<p>" + EscapeXml(row.note) + "</p>");
+    html +=
+        fmt::format("<div><dt>{}</dt><dd>{}</dd>{}</div>\n", EscapeXml(row.name), ValueAndUnit(row),
+                    row.note.empty() ? "" : "<p>" + EscapeXml(row.note) + "</p>");
   }
   return html + "</dl>\n";
 }
@@ -64,7 +70,8 @@ std::string TableHtml(const ReportTable& table) {
 
 std::string StatesHtml(const RunRecord& run) {
   std::string html =
-      "<table><caption>State after each frame</caption><thead><tr><th>state</th><th "
+      "<table class=\"narrow\"><caption>State after each "
+      "frame</caption><thead><tr><th>state</th><th "
       "class=\"num\">frames</th><th class=\"num\">share</th><th></th></tr></thead><tbody>\n";
   for (const TrackingState state :
        {TrackingState::kInitializing, TrackingState::kTracking, TrackingState::kLost}) {
@@ -77,11 +84,21 @@ std::string StatesHtml(const RunRecord& run) {
   return html + "</tbody></table>\n";
 }
 
+std::vector<FrameRefusal> RefusalsByCount(const RunRecord& run) {
+  std::vector<FrameRefusal> refusals;
+  for (std::size_t i = 1; i < run.refusals.size(); ++i) {
+    if (run.refusals[i] > 0) refusals.push_back(static_cast<FrameRefusal>(i));
+  }
+  std::stable_sort(refusals.begin(), refusals.end(), [&](FrameRefusal a, FrameRefusal b) {
+    return run.refusals[static_cast<std::size_t>(a)] > run.refusals[static_cast<std::size_t>(b)];
+  });
+  return refusals;
+}
+
 std::string RefusalsHtml(const RunRecord& run) {
   std::string rows;
-  for (std::size_t i = 1; i < run.refusals.size(); ++i) {
-    if (run.refusals[i] == 0) continue;
-    const auto refusal = static_cast<FrameRefusal>(i);
+  for (const FrameRefusal refusal : RefusalsByCount(run)) {
+    const auto i = static_cast<std::size_t>(refusal);
     rows += fmt::format("<tr><th scope=\"row\">{}</th>{}<td class=\"note\">{}</td></tr>\n",
                         WithSpaces(Name(refusal)), ShareCells(run.refusals[i], run.frames.size()),
                         EscapeXml(Explain(refusal)));
@@ -105,11 +122,14 @@ std::string StageTimesHtml(const StageTimes& times_ms) {
         "<td class=\"num\">{:.1f}</td><td class=\"num\">{:.1f}</td><td class=\"num\">{:.1f}</td>"
         "<td class=\"num\">{:.2f}</td></tr>\n",
         WithSpaces(stage), sorted.size(), Quantile(sorted, 0.5),
-        sum / static_cast<double>(sorted.size()), Quantile(sorted, 0.95), sorted.back(), sum * 1e-3);
+        sum / static_cast<double>(sorted.size()), Quantile(sorted, 0.95), sorted.back(),
+        sum * 1e-3);
   }
   if (rows.empty()) return {};
-  return "<table><caption>Time of each stage</caption><thead><tr><th>stage</th><th class=\"num\">runs"
-         "</th><th class=\"num\">median [ms]</th><th class=\"num\">mean [ms]</th><th class=\"num\">95 "
+  return "<table><caption>Time of each stage</caption><thead><tr><th>stage</th><th "
+         "class=\"num\">runs"
+         "</th><th class=\"num\">median [ms]</th><th class=\"num\">mean [ms]</th><th "
+         "class=\"num\">95 "
          "% below [ms]</th><th class=\"num\">slowest [ms]</th><th class=\"num\">total [s]</th></tr>"
          "</thead><tbody>\n" +
          rows + "</tbody></table>\n";
@@ -124,7 +144,7 @@ std::string CountersHtml(const RunRecord& run) {
     const std::string reason = dot == std::string::npos ? key : key.substr(dot + 1);
     if (of != stage) {
       html += fmt::format("{}<table><caption>{}</caption><tbody>\n",
-                          stage.empty() ? "" : "</tbody></table>\n", WithSpaces(of));
+                          stage.empty() ? "" : "</tbody></table>\n", Capitalized(WithSpaces(of)));
       stage = of;
     }
     html += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td></tr>\n",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -25,14 +26,17 @@ int Index(PlotColor color) { return static_cast<int>(color); }
 
 void PutGrid(const PlotLayout& l, std::string& out) {
   std::string path;
-  for (const double x : l.x_ticks.values) Put(path, "M{:.1f} {:.1f}v{:.1f}", l.X(x), l.top, l.height);
-  for (const double y : l.y_ticks.values) Put(path, "M{:.1f} {:.1f}h{:.1f}", l.left, l.Y(y), l.width);
+  for (const double x : l.x_ticks.values)
+    Put(path, "M{:.1f} {:.1f}v{:.1f}", l.X(x), l.top, l.height);
+  for (const double y : l.y_ticks.values)
+    Put(path, "M{:.1f} {:.1f}h{:.1f}", l.left, l.Y(y), l.width);
   Put(out, "<path class=\"p-grid\" d=\"{}\"/>\n", path);
 }
 
 void PutAxes(const Plot& plot, const PlotLayout& l, std::string& out) {
   const double bottom = l.top + l.height;
-  Put(out, "<rect class=\"p-frame\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
+  Put(out,
+      "<rect class=\"p-frame\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
       l.left, l.top, l.width, l.height);
   out += "<g class=\"p-tick\" text-anchor=\"middle\">";
   for (std::size_t i = 0; i < l.x_ticks.values.size(); ++i) {
@@ -97,9 +101,17 @@ void PutBands(const Plot& plot, const PlotLayout& l, std::string& out) {
           "height=\"{:.1f}\"/>",
           Index(band.color), x, l.top, width, l.height);
     }
+  }
+}
+
+// Above the frame, where they hide nothing.
+void PutBandStrips(const Plot& plot, const PlotLayout& l, std::string& out) {
+  for (const PlotBand& band : plot.bands) {
+    const double x = std::max(l.left, l.X(band.x_begin));
+    const double width = std::max(0.8, std::min(l.left + l.width, l.X(band.x_end)) - x);
     Put(out,
         "<rect class=\"p-f{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
-        Index(band.color), x, l.top, width, kBandStripPx);
+        Index(band.color), x, l.top - kBandStripPx, width, kBandStripPx);
   }
 }
 
@@ -146,16 +158,19 @@ void PutRug(const PlotSeries& series, const PlotLayout& l, std::string& out) {
   }
   std::string path;
   for (const long x : columns) Put(path, "M{} {:.1f}v{:.1f}", x, l.top + l.height, -kRugPx);
-  Put(out, "<path class=\"p-s{} p-rug\" stroke-width=\"1\" d=\"{}\"/>\n", Index(series.color), path);
+  // Paler where the strokes would run together.
+  const double opacity =
+      std::clamp(l.width / (3.0 * static_cast<double>(columns.size() + 1)), 0.3, 1.0);
+  Put(out, "<path class=\"p-s{} p-rug\" stroke-width=\"1\" stroke-opacity=\"{:.2f}\" d=\"{}\"/>\n",
+      Index(series.color), opacity, path);
 }
 
 void PutBars(const PlotSeries& series, const PlotLayout& l, std::vector<double>& base,
              std::string& out) {
   base.resize(std::max(base.size(), series.y.size()), 0.0);
-  const double step =
-      series.x.size() > 1
-          ? (series.x.back() - series.x.front()) / static_cast<double>(series.x.size() - 1)
-          : 1.0;
+  const double step = series.x.size() > 1 ? (series.x.back() - series.x.front()) /
+                                                static_cast<double>(series.x.size() - 1)
+                                          : 1.0;
   const double pitch = std::abs(step) / l.x_range.length() * l.width;
   const double width = std::max(0.6, pitch > 4.0 ? pitch - 1.0 : pitch);
   std::string path;
@@ -218,6 +233,7 @@ std::string RenderSvg(const Plot& plot) {
   PutSeries(plot, l, out);
   PutLevels(plot, l, out);
   out += "</svg>\n";
+  PutBandStrips(plot, l, out);
   PutAxes(plot, l, out);
   out += "</svg>\n";
   return out;
@@ -231,10 +247,10 @@ std::string RenderSvgFile(const Plot& plot) {
 
 std::string PlotStyleSheet() {
   std::string css = R"css(
-:root{--p0:#30353c;--p1:#0072b2;--p2:#d55e00;--p3:#009e73;--p4:#e69f00;--p5:#56b4e9;--p6:#b8578f;
+:root{--p0:#30353c;--p1:#0072b2;--p2:#d55e00;--p3:#009e73;--p4:#e69f00;--p5:#56b4e9;--p6:#b8578f;--p7:#b3bac3;
 --p-text:#3d444d;--p-grid:#e4e7eb;--p-line:#aab1ba}
 @media screen and (prefers-color-scheme:dark){:root{--p0:#d5dae1;--p1:#4aa8e8;--p2:#ff8647;--p3:#35c79b;
---p4:#f3b63a;--p5:#8fd0f7;--p6:#e08fbf;--p-text:#b4bcc6;--p-grid:#2b3139;--p-line:#545d68}}
+--p4:#f3b63a;--p5:#8fd0f7;--p6:#e08fbf;--p7:#707b88;--p-text:#b4bcc6;--p-grid:#2b3139;--p-line:#545d68}}
 .plot{display:block;width:100%;height:auto;font:12px system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif;font-variant-numeric:tabular-nums}
 .plot text{fill:var(--p-text)}.p-label{font-size:12.5px}
 .p-grid{stroke:var(--p-grid);fill:none;shape-rendering:crispEdges}

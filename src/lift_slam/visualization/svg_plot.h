@@ -7,9 +7,10 @@
 namespace lift_slam {
 
 // Colours after Okabe and Ito (told apart with any colour vision); the style sheet gives each a
-// tone for light and for dark pages. kInk is the text colour: reference curves.
-enum class PlotColor { kInk, kBlue, kVermilion, kGreen, kOrange, kSky, kPurple };
-constexpr int kNumPlotColors = 7;
+// tone for light and for dark pages. kInk is that of the text, kGray that of ground truth: wide,
+// under the estimate.
+enum class PlotColor { kInk, kBlue, kVermilion, kGreen, kOrange, kSky, kPurple, kGray };
+constexpr int kNumPlotColors = 8;
 
 enum class SeriesKind {
   kLine,
@@ -27,7 +28,7 @@ struct PlotSeries {
   double size_px = 1.6;      // line width or circle diameter
 };
 
-// A stretch of the x axis in some state: a strip along the top edge and, if asked for, a tint.
+// A stretch of the x axis in some state: a strip on the frame's top edge and, if asked for, a tint.
 struct PlotBand {
   std::string label;
   PlotColor color = PlotColor::kOrange;
@@ -49,9 +50,9 @@ struct PlotImage {
 };
 
 struct PlotAxis {
-  std::string label;  // with the unit: "time [s]"
-  bool integers = false;              // ticks at whole numbers only
-  std::optional<double> min, max;     // instead of the data's
+  std::string label;               // with the unit: "time [s]"
+  bool integers = false;           // ticks at whole numbers only
+  std::optional<double> min, max;  // instead of the data's
 };
 
 // A plot with axes, ticks, grid and a legend above the frame; nothing ever covers the data.

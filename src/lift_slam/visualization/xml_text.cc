@@ -11,11 +11,11 @@ namespace {
 // Length of the UTF-8 sequence at the start of `text`; 0 when it is malformed.
 std::size_t Utf8Length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
-  const std::size_t length = lead < 0x80             ? 1
-                             : (lead >> 5) == 0x6    ? 2
-                             : (lead >> 4) == 0xE    ? 3
-                             : (lead >> 3) == 0x1E   ? 4
-                                                     : 0;
+  const std::size_t length = lead < 0x80           ? 1
+                             : (lead >> 5) == 0x6  ? 2
+                             : (lead >> 4) == 0xE  ? 3
+                             : (lead >> 3) == 0x1E ? 4
+                                                   : 0;
   if (length == 0 || length > text.size() || lead == 0xC0 || lead == 0xC1 || lead > 0xF4) return 0;
   for (std::size_t i = 1; i < length; ++i) {
     if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
@@ -97,7 +97,8 @@ std::string FormatNumber(double value, int digits) {
   if (magnitude != 0.0 && (magnitude >= 1e7 || magnitude < 1e-4)) {
     text = fmt::format("{:.{}g}", value, digits);
   } else {
-    const int before = magnitude < 1.0 ? 0 : static_cast<int>(std::floor(std::log10(magnitude))) + 1;
+    const int before =
+        magnitude < 1.0 ? 0 : static_cast<int>(std::floor(std::log10(magnitude))) + 1;
     // Below one, leading zeros after the point do not count as digits, but no more than 5 decimals.
     const int leading = magnitude > 0.0 && magnitude < 1.0
                             ? static_cast<int>(-std::floor(std::log10(magnitude))) - 1
@@ -109,7 +110,10 @@ std::string FormatNumber(double value, int digits) {
     }
   }
   if (text[0] == '-') text.replace(0, 1, "\xE2\x88\x92");
-  return text == "\xE2\x88\x92" "0" ? "0" : text;
+  return text == "\xE2\x88\x92"
+                 "0"
+             ? "0"
+             : text;
 }
 
 }  // namespace lift_slam
