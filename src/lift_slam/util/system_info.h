@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lift_slam {
+
+// "AMD EPYC 9555 64-Core Processor", or "unknown CPU".
+std::string CpuName();
+// Instruction sets that matter here and that this CPU has, of: sse4.2, avx2, fma, avx512f,
+// avx512_vnni, avx512_bf16. Empty on other architectures.
+std::vector<std::string> CpuFeatures();
+// Threads that can run at once for this process; at least 1.
+int NumHardwareThreads();
+// Main memory of the machine; 0 when unknown.
+std::int64_t TotalMemoryBytes();
+// The most memory this process has held so far (resident set).
+std::int64_t PeakMemoryBytes();
+
+}  // namespace lift_slam
