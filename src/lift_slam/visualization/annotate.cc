@@ -23,7 +23,7 @@ void DrawMark(const AnnotatedFrame::Mark& mark, double scale, cv::Mat& image) {
   const cv::Point centre = Fixed((mark.x + 0.5) * scale - 0.5, (mark.y + 0.5) * scale - 0.5);
   const auto radius = [](double px) { return cvRound(px * (1 << kShift)); };
   if (mark.tracked) {
-    cv::circle(image, centre, radius(3.2), kTracked, 2, cv::LINE_AA, kShift);
+    cv::circle(image, centre, radius(3.0), kTracked, 1, cv::LINE_AA, kShift);
   } else {
     cv::circle(image, centre, radius(1.0), kUnmatched, cv::FILLED, cv::LINE_AA, kShift);
   }

@@ -126,7 +126,7 @@ const char* MapViewerScript() {
     const height = Math.max(2, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
     const project = projector(width, height);
-    drawPoints(project, width, height, ratio > 1.4 ? 3 : 2);
+    drawPoints(project, width, height, (ratio > 1.4 ? 3 : 2) + (scene.count < 2000 ? 1 : 0));
     if (scene.truth.length) drawPath(project, scene.truth, "#e8edf3", 2.4 * ratio);
     drawPath(project, scene.path, "#4aa8e8", 1.8 * ratio);
     drawKeyframes(project, ratio);
