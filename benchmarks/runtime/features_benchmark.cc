@@ -76,7 +76,7 @@ void BM_Describe2000(benchmark::State& state) {
     const int y = random.UniformInt(20, image.height() - 21);
     corners.push_back({x, y, IntensityCentroidAngle(image, x, y)});
   }
-  const OrbDescriptor descriptor;
+  OrbDescriptor descriptor;
   std::vector<std::byte> rows(corners.size() * OrbDescriptor::kBytes);
   for (auto _ : state) descriptor.Describe(image, corners, rows.data());
 }

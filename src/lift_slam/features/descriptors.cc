@@ -9,14 +9,24 @@
 namespace lift_slam {
 namespace {
 
+std::uint64_t Word(DescriptorView view, std::size_t at) {
+  std::uint64_t word;
+  std::memcpy(&word, view.data() + at, sizeof word);
+  return word;
+}
+
+int DifferingBits(DescriptorView a, DescriptorView b, std::size_t at) {
+  return std::popcount(Word(a, at) ^ Word(b, at));
+}
+
 float HammingDistance(DescriptorView a, DescriptorView b) {
   int bits = 0;
-  for (std::size_t i = 0; i < a.size(); i += 8) {
-    std::uint64_t wa, wb;
-    std::memcpy(&wa, a.data() + i, 8);
-    std::memcpy(&wb, b.data() + i, 8);
-    bits += std::popcount(wa ^ wb);
+  std::size_t at = 0;
+  for (; at + 32 <= a.size(); at += 32) {
+    bits += DifferingBits(a, b, at) + DifferingBits(a, b, at + 8) + DifferingBits(a, b, at + 16) +
+            DifferingBits(a, b, at + 24);
   }
+  for (; at < a.size(); at += 8) bits += DifferingBits(a, b, at);
   return static_cast<float>(bits);
 }
 
@@ -24,7 +34,8 @@ float EuclideanDistance(DescriptorView a, DescriptorView b) {
   const auto* fa = reinterpret_cast<const float*>(a.data());
   const auto* fb = reinterpret_cast<const float*>(b.data());
   float sum = 0.0F;
-  for (std::size_t i = 0; i < a.size() / sizeof(float); ++i) sum += (fa[i] - fb[i]) * (fa[i] - fb[i]);
+  for (std::size_t i = 0; i < a.size() / sizeof(float); ++i)
+    sum += (fa[i] - fb[i]) * (fa[i] - fb[i]);
   return std::sqrt(sum);
 }
 

@@ -30,4 +30,9 @@ struct PyramidShape {
 // one before it. The same bytes for any number of OpenCV threads.
 ImagePyramid BuildPyramid(const GrayImage& image, const PyramidShape& shape);
 
+// The same in place of an old pyramid, whose levels above 0 are written over where their size
+// fits: for the frames of a sequence, where new memory would cost more than the resampling.
+// Nobody else may hold images of the old pyramid's levels above 0.
+void RebuildPyramid(const GrayImage& image, const PyramidShape& shape, ImagePyramid& pyramid);
+
 }  // namespace lift_slam

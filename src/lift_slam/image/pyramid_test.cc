@@ -56,6 +56,19 @@ TEST(Pyramid, EachLevelShowsTheSameSceneAtTheMappedPlace) {
   for (std::size_t i = 1; i < 8; ++i) EXPECT_NEAR(shift_error(i), shift_error(0), 0.03) << i;
 }
 
+TEST(Pyramid, RebuildingInPlaceEqualsBuilding) {
+  ImagePyramid pyramid;
+  for (const GrayImage& image : {Ramp(200, 100), GrayImage(255 - Ramp(200, 100).mat()),
+                                 Ramp(90, 120), Ramp(10, 10), Ramp(200, 100)}) {
+    RebuildPyramid(image, {}, pyramid);
+    const ImagePyramid expected = BuildPyramid(image, {});
+    ASSERT_EQ(pyramid.size(), expected.size());
+    for (std::size_t i = 0; i < pyramid.size(); ++i) {
+      EXPECT_EQ(cv::norm(pyramid[i].image.mat(), expected[i].image.mat(), cv::NORM_INF), 0.0);
+    }
+  }
+}
+
 TEST(Pyramid, EndsBeforeLevelsGetTooSmall) {
   EXPECT_TRUE(BuildPyramid(GrayImage(), {}).empty());
   EXPECT_TRUE(BuildPyramid(Ramp(100, 38), {.min_size_px = 39}).empty());

@@ -23,9 +23,24 @@ std::map<std::int64_t, int> MapOfFrame(const RunRecord& run) {
   return map_of_frame;
 }
 
-// The poses within the times of the run, or all when the two do not share a clock.
+// Truth that counts frames (KITTI) has no times of its own: those of the run's frames.
+Trajectory WithFrameTimes(const RunRecord& run, const Trajectory& truth) {
+  std::map<std::int64_t, std::int64_t> time_of_frame;
+  for (const FrameRecord& frame : run.frames) time_of_frame[frame.frame_index] = frame.timestamp_ns;
+  Trajectory timed;
+  for (TrajectoryPose pose : truth) {
+    const auto found = time_of_frame.find(pose.frame_index);
+    if (found == time_of_frame.end()) continue;
+    pose.timestamp_ns = found->second;
+    timed.push_back(pose);
+  }
+  return timed;
+}
+
+// The poses of the run's frames or within its times; all when the two do not share a clock.
 Trajectory WithinRun(const RunRecord& run, const Trajectory& truth) {
-  if (run.frames.empty()) return truth;
+  if (run.frames.empty() || truth.empty()) return truth;
+  if (truth.front().frame_index >= 0) return WithFrameTimes(run, truth);
   const std::int64_t first = run.frames.front().timestamp_ns - kSecond / 2;
   const std::int64_t last = run.frames.back().timestamp_ns + kSecond / 2;
   Trajectory inside;

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
+#include "lift_slam/visualization/time_summary.h"
 #include "lift_slam/visualization/xml_text.h"
 
 namespace lift_slam {
@@ -26,12 +25,6 @@ std::string ValueAndUnit(const ReportRow& row) {
   if (row.unit.empty()) return EscapeXml(row.value);
   return fmt::format("{} <span class=\"unit\">{}</span>", EscapeXml(row.value),
                      EscapeXml(row.unit));
-}
-
-// The value below which `share` of the sorted values lie.
-double Quantile(const std::vector<double>& sorted, double share) {
-  const auto last = static_cast<double>(sorted.size() - 1);
-  return sorted[static_cast<std::size_t>(std::ceil(share * last))];
 }
 
 // A count as a bar of its share.
@@ -114,16 +107,13 @@ std::string StageTimesHtml(const StageTimes& times_ms) {
   std::string rows;
   for (const auto& [stage, times] : times_ms) {
     if (times.empty()) continue;
-    std::vector<double> sorted = times;
-    std::sort(sorted.begin(), sorted.end());
-    const double sum = std::accumulate(sorted.begin(), sorted.end(), 0.0);
+    const TimeSummary t = SummarizeTimes(times);
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{:.1f}</td>"
         "<td class=\"num\">{:.1f}</td><td class=\"num\">{:.1f}</td><td class=\"num\">{:.1f}</td>"
         "<td class=\"num\">{:.2f}</td></tr>\n",
-        WithSpaces(stage), sorted.size(), Quantile(sorted, 0.5),
-        sum / static_cast<double>(sorted.size()), Quantile(sorted, 0.95), sorted.back(),
-        sum * 1e-3);
+        Capitalized(WithSpaces(stage)), t.runs, t.median_ms, t.mean_ms, t.p95_ms, t.max_ms,
+        t.total_s);
   }
   if (rows.empty()) return {};
   return "<table><caption>Time of each stage</caption><thead><tr><th>stage</th><th "

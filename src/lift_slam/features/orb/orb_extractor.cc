@@ -37,12 +37,14 @@ OrbExtractor::OrbExtractor(const OrbOptions& options) : options_(options) {
 }
 
 FeatureSet OrbExtractor::Extract(const GrayImage& image) {
-  const ImagePyramid pyramid = BuildPyramid(image, {.num_levels = options_.num_levels,
-                                                    .scale_factor = options_.scale_factor,
-                                                    .min_size_px = 2 * OrbDescriptor::kBorder + 1});
-  const std::vector<LevelFeatures> levels =
-      ExtractLevels(pyramid, FeaturesPerLevel(FeatureCount(options_, image.width(), image.height()),
-                                              options_.num_levels, options_.scale_factor));
+  RebuildPyramid(image,
+                 {.num_levels = options_.num_levels,
+                  .scale_factor = options_.scale_factor,
+                  .min_size_px = 2 * OrbDescriptor::kBorder + 1},
+                 pyramid_);
+  const std::vector<LevelFeatures> levels = ExtractLevels(
+      pyramid_, FeaturesPerLevel(FeatureCount(options_, image.width(), image.height()),
+                                 options_.num_levels, options_.scale_factor));
   FeatureSet features;
   for (const LevelFeatures& level : levels) {
     features.keypoints.insert(features.keypoints.end(), level.keypoints.begin(),

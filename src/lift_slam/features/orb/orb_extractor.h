@@ -48,6 +48,7 @@ class OrbExtractor : public FeatureExtractor {
   DescriptorKind kind_{"orb", DescriptorMetric::kHamming, OrbDescriptor::kBits};
   // ORB-SLAM's limits for 256-bit descriptors.
   MatchingThresholds thresholds_{50.0F, 100.0F};
+  ImagePyramid pyramid_;  // of the last image; its memory is used again
   std::vector<Scratch> scratch_;
 };
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "lift_slam/util/input_error.h"
@@ -74,24 +73,6 @@ TEST(OrbExtractor, SameFeaturesEachTimeAndForAnyNumberOfThreads) {
   cv::setNumThreads(1);
   EXPECT_TRUE(SameFeatures(first, one->Extract(image)));
   cv::setNumThreads(-1);
-}
-
-TEST(OrbExtractor, DescriptorsAreThoseOfOpenCv) {
-  const cv::Mat image = Rectangles(300, 200, 3);
-  const FeatureSet features =
-      CreateOrbExtractor({.num_levels = 1, .subpixel = false})->Extract(GrayImage(image));
-  ASSERT_GT(features.keypoints.size(), 100U);
-  for (std::size_t i = 0; i < features.keypoints.size(); ++i) {
-    const Keypoint& k = features.keypoints[i];
-    std::vector<cv::KeyPoint> keypoint = {cv::KeyPoint(
-        std::round(k.x), std::round(k.y), 31.0F, k.angle_rad * 180.0F / std::numbers::pi_v<float>)};
-    keypoint[0].octave = 0;
-    cv::Mat row;
-    cv::ORB::create(500, 1.2F, 8, /*edgeThreshold=*/19)->compute(image, keypoint, row);
-    ASSERT_EQ(row.rows, 1);
-    const DescriptorView ours = features.descriptors.row(i);
-    EXPECT_TRUE(std::equal(ours.begin(), ours.end(), row.ptr<std::byte>()));
-  }
 }
 
 // Each feature of an image must be found again, at the mapped place, in the image turned by 90
