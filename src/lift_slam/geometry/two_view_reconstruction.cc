@@ -17,7 +17,8 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // Essential matrices taken from the sampling, and poses refined afterwards.
 constexpr int kMaxEssentials = 5;
-constexpr std::size_t kMaxRefined = 6;
+constexpr std::size_t kMaxSampledPoses = 5;
+constexpr std::size_t kMaxAxisPoses = 3;
 constexpr int kRefineIterations = 10;
 // While refining, errors up to 3 sigma pull; only smaller ones count as inliers.
 constexpr double kMaxRefineSquaredError = 9.0;
@@ -92,10 +93,38 @@ void SortByScore(std::vector<Hypothesis>& hypotheses) {
                    [](const Hypothesis& a, const Hypothesis& b) { return a.score > b.score; });
 }
 
-// Poses of all models, scored, best first.
-std::vector<Hypothesis> FindHypotheses(std::span<const NormalizedMatch> matches,
-                                       const std::vector<TwoViewModel>& essentials,
-                                       const std::optional<TwoViewModel>& homography) {
+bool SamePose(const Rigid3d& a, const Rigid3d& b) {
+  const double rotation = RotationAngle(a.rotation * b.rotation.conjugate());
+  return rotation * kDegrees < kSamePoseRotationDeg &&
+         AngleBetween(a.translation, b.translation) * kDegrees < kSamePoseTranslationDeg;
+}
+
+// Both signs of the translation.
+void AddBothSigns(const Rigid3d& pose, TwoViewModelKind model, std::vector<Hypothesis>& poses) {
+  poses.push_back({pose, model});
+  poses.push_back({Rigid3d(pose.rotation, -pose.translation), model});
+}
+
+// The best `max_count` of different poses, scored, best first.
+std::vector<Hypothesis> KeepBestDifferent(std::span<const NormalizedMatch> matches,
+                                          std::vector<Hypothesis> hypotheses,
+                                          std::size_t max_count) {
+  for (Hypothesis& hypothesis : hypotheses) ScoreHypothesis(matches, hypothesis);
+  SortByScore(hypotheses);
+  std::vector<Hypothesis> kept;
+  for (const Hypothesis& hypothesis : hypotheses) {
+    if (kept.size() == max_count) break;
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
+      return SamePose(other.cam2_from_cam1, hypothesis.cam2_from_cam1);
+    });
+    if (!known) kept.push_back(hypothesis);
+  }
+  return kept;
+}
+
+// The poses of the models found by sampling.
+std::vector<Hypothesis> SampledPoses(const std::vector<TwoViewModel>& essentials,
+                                     const std::optional<TwoViewModel>& homography) {
   std::vector<Hypothesis> hypotheses;
   for (const TwoViewModel& essential : essentials) {
     for (const Rigid3d& pose : DecomposeEssential(essential.matrix)) {
@@ -107,9 +136,17 @@ std::vector<Hypothesis> FindHypotheses(std::span<const NormalizedMatch> matches,
       hypotheses.push_back({pose, TwoViewModelKind::kHomography});
     }
   }
-  for (Hypothesis& hypothesis : hypotheses) ScoreHypothesis(matches, hypothesis);
-  SortByScore(hypotheses);
-  if (hypotheses.size() > kMaxRefined) hypotheses.resize(kMaxRefined);
+  return hypotheses;
+}
+
+// Further starts: the best rotation with motion along each axis. With little parallax the samples
+// may miss the right one of several valleys; what ends up in a known valley costs only time.
+std::vector<Hypothesis> AxisPoses(const Eigen::Matrix3d& rotation) {
+  std::vector<Hypothesis> hypotheses;
+  for (int axis = 0; axis < 3; ++axis) {
+    AddBothSigns(Rigid3d(rotation, Eigen::Vector3d::Unit(axis)), TwoViewModelKind::kEssential,
+                 hypotheses);
+  }
   return hypotheses;
 }
 
@@ -135,12 +172,6 @@ double NoiseScale(std::span<const NormalizedMatch> matches, const Rigid3d& cam2_
   }
   const double variance = Median(std::move(errors)) / kChiSquareMedianWith1Dof;
   return std::clamp(std::sqrt(variance), kMinNoiseScale, 1.0);
-}
-
-bool SamePose(const Rigid3d& a, const Rigid3d& b) {
-  const double rotation = RotationAngle(a.rotation * b.rotation.conjugate());
-  return rotation * kDegrees < kSamePoseRotationDeg &&
-         AngleBetween(a.translation, b.translation) * kDegrees < kSamePoseTranslationDeg;
 }
 
 double RunnerUpScore(const std::vector<Hypothesis>& hypotheses) {
@@ -234,17 +265,22 @@ TwoViewReconstruction ReconstructTwoViews(std::span<const TwoViewMatch> matches,
   const auto essentials = FindEssentialMatrices(normalized, {30, options.max_iterations, 0.999},
                                                 kMaxEssentials, random);
   if (homography) result.num_homography_inliers = homography->inliers;
-
-  auto hypotheses = FindHypotheses(normalized, essentials, homography);
+  auto hypotheses =
+      KeepBestDifferent(normalized, SampledPoses(essentials, homography), kMaxSampledPoses);
   result.status = TwoViewStatus::kTooFewPoints;
   if (hypotheses.empty()) return result;
   Refine(normalized, hypotheses);
+
   result.noise_scale = NoiseScale(normalized, hypotheses.front().cam2_from_cam1);
   for (NormalizedMatch& match : normalized) match.sigma *= result.noise_scale;
-  Refine(normalized, hypotheses);
   const TwoViewModel rotation = FindRotation(normalized, {10, 50, 0.999}, random);
   result.num_rotation_inliers = rotation.inliers;
   result.rotation_deg = RotationAngle(Eigen::Quaterniond(rotation.matrix)) * kDegrees;
+  for (const Hypothesis& start :
+       KeepBestDifferent(normalized, AxisPoses(rotation.matrix), kMaxAxisPoses)) {
+    hypotheses.push_back(start);
+  }
+  Refine(normalized, hypotheses);
   result.cam2_from_cam1 = hypotheses.front().cam2_from_cam1;
   result.model = hypotheses.front().model;
   result.score = hypotheses.front().score;

@@ -40,7 +40,7 @@ enum class TwoViewModelKind { kHomography, kEssential };
 
 struct TwoViewOptions {
   int min_matches = 60;               // below, no model can be trusted
-  double min_inlier_ratio = 0.5;      // of the matches; fewer: the pose is not that of the scene
+  double min_inlier_ratio = 0.4;      // of the matches; fewer: the pose is not that of the scene
   int min_points = 50;                // points with min_parallax_deg, to start a map with
   double min_point_ratio = 0.1;       // of the inliers; a small moving object is not the scene
   double min_parallax_deg = 0.8;      // about 10 px at 700 px focal length: depth to 10 percent
@@ -71,7 +71,7 @@ struct TwoViewReconstruction {
   int num_homography_inliers = 0;
   int num_rotation_inliers = 0;
   double rotation_deg = 0.0;     // angle of the best pure rotation
-  double noise_scale = 1.0;         // real noise against the given sigmas, in [0.25, 1]
+  double noise_scale = 1.0;      // real noise against the given sigmas, in [0.25, 1]
   double score = 0.0;            // of the best pose
   double runner_up_score = 0.0;  // of the best pose that differs from it
 };
