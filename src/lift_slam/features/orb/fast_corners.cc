@@ -71,12 +71,12 @@ inline Pixels MaximumMask(const std::uint8_t* above, const std::uint8_t* at,
 }  // namespace
 
 void FastScoreMap::Compute(const GrayImage& image, int border) {
-  LIFT_SLAM_CHECK(border >= 4, "border is {}", border);
+  LIFT_SLAM_CHECK(border >= 16, "border is {}", border);
   width_ = image.width();
   height_ = image.height();
   border_ = border;
-  // The last block of a row runs over its end: in the scores into padding, in the image into the
-  // next row, which exists because of the border.
+  // The last block of a row runs over its end: in the scores into padding, in the image by at
+  // most 35 - border pixels into the next row, which exists because of the border.
   stride_ = static_cast<std::size_t>(width_ + 2 * kLanes);
   const std::size_t size = stride_ * static_cast<std::size_t>(height_);
   if (scores_.size() < size) scores_.resize(size);

@@ -19,8 +19,8 @@ struct Corner {
 // all darker, than the centre by at least s. A pixel is a FAST corner of threshold t when s > t.
 class FastScoreMap {
  public:
-  // The pixels reachable from a reported corner: its score and that of its 8 neighbours are valid.
-  // Needs border >= 4. Keeps its memory from image to image.
+  // The scores of the pixels at least border - 1 from the edge; border >= 16. Keeps its memory
+  // from image to image.
   void Compute(const GrayImage& image, int border);
 
   std::uint8_t Score(int x, int y) const { return row(y)[x]; }
