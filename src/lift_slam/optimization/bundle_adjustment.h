@@ -26,7 +26,7 @@ struct BundleProblem {
   std::vector<BundleObservation> observations;
 };
 
-// kAutomatic: kReduced with up to 40 free cameras, else kCeres.
+// kAutomatic: kReduced with up to 100 free cameras, else kCeres.
 enum class BundleSolverKind { kAutomatic, kCeres, kReduced };
 
 struct BundleOptions {
@@ -69,7 +69,7 @@ struct BundleReport {
 // Result in `problem`; when the report is not usable, `problem` is unchanged and is_inlier speaks
 // of the input. The caller fixes the gauge: at least one fixed camera, two to hold the scale;
 // without them the damping of the solver keeps the map near where it was.
-// One thread: same input, same bits.
+// Same input, same bits, with one thread (kReduced always uses one).
 BundleReport SolveBundle(BundleProblem& problem, const BundleOptions& options = {});
 
 }  // namespace lift_slam

@@ -15,7 +15,12 @@ using Matrix26 = Eigen::Matrix<double, 2, 6>;
 
 // Damping of a point relative to its information: keeps the system of a point without parallax
 // solvable; far below the share of the depth, about (baseline / depth)^2.
-constexpr double kPointDamping = 1e-8;
+constexpr double kPointDamping = 1e-10;
+
+// A point's step that makes its loss worse is shortened by this factor, at most so many times:
+// points without much parallax overshoot, and one that stayed put would hold the cameras back.
+constexpr double kShortening = 0.25;
+constexpr int kMaxShortenings = 3;
 
 struct Loss {
   double value = 0.0;  // rho
@@ -26,6 +31,46 @@ struct Loss {
 inline Loss Huber(double squared_error, double width) {
   const double slope = squared_error > width * width ? width / std::sqrt(squared_error) : 1.0;
   return {squared_error * slope * (2.0 - slope), slope};
+}
+
+Eigen::Matrix3d DampedInverse(const Eigen::Matrix3d& hessian) {
+  const double damping = kPointDamping * hessian.trace();
+  if (!(damping > 0.0)) return Eigen::Matrix3d::Zero();  // behind all its cameras: it stays
+  return (hessian + damping * Eigen::Matrix3d::Identity()).inverse();
+}
+
+// One observation linearised. by_camera lacks LeftJacobianSo3, see ApplyRotationChain().
+struct Linearized {
+  Eigen::Vector2d error;  // pixels
+  Matrix23 by_point;
+  Matrix26 by_camera;   // set for free cameras
+  double weight = 0.0;  // inverse variance times rho'
+  double loss = 0.0;
+};
+
+// d pixel / d x_in_cam = [a0 0 a2; 0 b1 b2]; d x_in_cam / d x_in_world = R,
+// / d w = -[x_in_cam - d]x J_l(w), / d d = I.
+inline Linearized LinearizeObservation(const ReducedBundleOptions& options,
+                                       const CameraBlock& camera,
+                                       const ReducedObservation& observation,
+                                       const Eigen::Vector3d& x_in_cam) {
+  const PinholeIntrinsics& k = options.intrinsics;
+  const double inverse_z = 1.0 / x_in_cam.z();
+  const double x = x_in_cam.x() * inverse_z, y = x_in_cam.y() * inverse_z;
+  Linearized result;
+  result.error << k.fx * x + k.cx - observation.u, k.fy * y + k.cy - observation.v;
+  const Loss loss = Huber(observation.weight * result.error.squaredNorm(), options.huber_width);
+  result.loss = loss.value;
+  result.weight = observation.weight * loss.slope;
+  const double a0 = k.fx * inverse_z, a2 = -a0 * x, b1 = k.fy * inverse_z, b2 = -b1 * y;
+  const Eigen::Matrix3d& rotation = camera.rotation();
+  result.by_point.row(0) = a0 * rotation.row(0) + a2 * rotation.row(2);
+  result.by_point.row(1) = b1 * rotation.row(1) + b2 * rotation.row(2);
+  if (observation.free_camera < 0) return result;
+  const Eigen::Vector3d r = x_in_cam - camera.shift();
+  result.by_camera << r.y() * a2, r.z() * a0 - r.x() * a2, -r.y() * a0, a0, 0.0, a2,
+      r.y() * b2 - r.z() * b1, -r.x() * b2, r.x() * b1, 0.0, b1, b2;
+  return result;
 }
 
 }  // namespace
@@ -88,59 +133,39 @@ const NormalEquations<Eigen::Dynamic>& ReducedBundleCost::Linearize() const {
   return equations_;
 }
 
-// The Jacobian by the camera here lacks LeftJacobianSo3, see ApplyRotationChain().
 void ReducedBundleCost::LinearizePoint(std::size_t range) const {
   const ReducedPoint& seen = ranges_[range];
   const Eigen::Vector3d& point = points_[static_cast<std::size_t>(seen.point)];
-  const PinholeIntrinsics& k = options_.intrinsics;
-  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   PointSystem& system = systems_[range];
   system.gradient.setZero();
   system.loss = 0.0;
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   for (int i = seen.begin; i < seen.end; ++i) {
     const ReducedObservation& observation = observations_[static_cast<std::size_t>(i)];
-    Matrix36& point_camera = point_camera_blocks_[static_cast<std::size_t>(i)];
     const CameraBlock& camera = cameras_[static_cast<std::size_t>(observation.camera)];
+    Matrix36& point_camera = point_camera_blocks_[static_cast<std::size_t>(i)];
     const Eigen::Vector3d x_in_cam = camera.rotation() * point + camera.translation();
     if (!(x_in_cam.z() > kMinDepth)) {
       system.loss += Huber(kBehindSquaredError, options_.huber_width).value;
       point_camera.setZero();
       continue;
     }
-    const double inverse_z = 1.0 / x_in_cam.z();
-    const double x = x_in_cam.x() * inverse_z, y = x_in_cam.y() * inverse_z;
-    const Eigen::Vector2d error(k.fx * x + k.cx - observation.u, k.fy * y + k.cy - observation.v);
-    const Loss loss = Huber(observation.weight * error.squaredNorm(), options_.huber_width);
-    system.loss += loss.value;
-    const double weight = observation.weight * loss.slope;
-    const double a0 = k.fx * inverse_z, a2 = -a0 * x, b1 = k.fy * inverse_z, b2 = -b1 * y;
-    Matrix23 by_point;
-    by_point.row(0) = a0 * camera.rotation().row(0) + a2 * camera.rotation().row(2);
-    by_point.row(1) = b1 * camera.rotation().row(1) + b2 * camera.rotation().row(2);
-    const Matrix23 weighted = weight * by_point;
-    hessian.noalias() += weighted.transpose().lazyProduct(by_point);
-    system.gradient.noalias() += weighted.transpose().lazyProduct(error);
+    const Linearized l = LinearizeObservation(options_, camera, observation, x_in_cam);
+    system.loss += l.loss;
+    const Matrix23 weighted = l.weight * l.by_point;
+    hessian.noalias() += weighted.transpose().lazyProduct(l.by_point);
+    system.gradient.noalias() += weighted.transpose().lazyProduct(l.error);
     if (observation.free_camera < 0) continue;
-    const Eigen::Vector3d rotated = x_in_cam - camera.shift();
-    Matrix26 by_camera;
-    by_camera << rotated.y() * a2, rotated.z() * a0 - rotated.x() * a2, -rotated.y() * a0, a0, 0.0,
-        a2, rotated.y() * b2 - rotated.z() * b1, -rotated.x() * b2, rotated.x() * b1, 0.0, b1, b2;
-    point_camera.noalias() = weighted.transpose().lazyProduct(by_camera);
-    const Matrix26 weighted_by_camera = weight * by_camera;
+    point_camera.noalias() = weighted.transpose().lazyProduct(l.by_camera);
+    const Matrix26 weighted_by_camera = l.weight * l.by_camera;
     const Eigen::Index first = 6 * static_cast<Eigen::Index>(observation.free_camera);
     equations_.hessian.block<6, 6>(first, first).noalias() +=
-        weighted_by_camera.transpose().lazyProduct(by_camera);
+        weighted_by_camera.transpose().lazyProduct(l.by_camera);
     equations_.gradient.segment<6>(first).noalias() +=
-        weighted_by_camera.transpose().lazyProduct(error);
+        weighted_by_camera.transpose().lazyProduct(l.error);
   }
   equations_.squared_norm += system.loss;
-  const double damping = kPointDamping * hessian.trace();
-  hessian.diagonal().array() += damping;
-  if (damping > 0.0) {
-    system.inverse_hessian = hessian.inverse();
-  } else {  // behind all its cameras: it stays
-    system.inverse_hessian.setZero();
-  }
+  system.inverse_hessian = DampedInverse(hessian);
   EliminatePoint(range, system);
 }
 
@@ -188,25 +213,31 @@ double ReducedBundleCost::TrialSquaredNorm(const Eigen::VectorXd& parameters) co
     rotation_step = (rotation_chains_[i] * rotation_step).eval();
   }
   double sum = 0.0;
-  for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    const auto index = static_cast<std::size_t>(ranges_[i].point);
-    Eigen::Vector3d trial = PredictPoint(i, camera_steps);
-    double loss = PointLoss(ranges_[i], trial);
-    if (!(loss <= systems_[i].loss)) {
-      const double unmoved = PointLoss(ranges_[i], points_[index]);
-      if (!(loss <= unmoved)) {
-        loss = unmoved;
-        trial = points_[index];
-      }
-    }
-    trial_points_[index] = trial;
-    sum += loss;
-  }
+  for (std::size_t i = 0; i < ranges_.size(); ++i) sum += MovePoint(i, camera_steps);
   return sum;
 }
 
-Eigen::Vector3d ReducedBundleCost::PredictPoint(std::size_t range,
-                                                const Eigen::VectorXd& camera_steps) const {
+double ReducedBundleCost::MovePoint(std::size_t range, const Eigen::VectorXd& camera_steps) const {
+  const ReducedPoint& seen = ranges_[range];
+  const Eigen::Vector3d& start = points_[static_cast<std::size_t>(seen.point)];
+  Eigen::Vector3d& trial = trial_points_[static_cast<std::size_t>(seen.point)];
+  Eigen::Vector3d step = PointStep(range, camera_steps);
+  trial = start + step;
+  double loss = PointLoss(seen, trial);
+  if (loss <= systems_[range].loss) return loss;
+  const double unmoved_loss = PointLoss(seen, start);
+  for (int i = 0; i < kMaxShortenings && !(loss <= unmoved_loss); ++i) {
+    step *= kShortening;
+    trial = start + step;
+    loss = PointLoss(seen, trial);
+  }
+  if (loss <= unmoved_loss) return loss;
+  trial = start;
+  return unmoved_loss;
+}
+
+Eigen::Vector3d ReducedBundleCost::PointStep(std::size_t range,
+                                             const Eigen::VectorXd& camera_steps) const {
   const ReducedPoint& seen = ranges_[range];
   Eigen::Vector3d gradient = systems_[range].gradient;
   for (int i = seen.begin; i < seen.end; ++i) {
@@ -215,7 +246,7 @@ Eigen::Vector3d ReducedBundleCost::PredictPoint(std::size_t range,
     gradient.noalias() += point_camera_blocks_[static_cast<std::size_t>(i)].lazyProduct(
         camera_steps.segment<6>(6 * static_cast<Eigen::Index>(camera)));
   }
-  return points_[static_cast<std::size_t>(seen.point)] - systems_[range].inverse_hessian * gradient;
+  return -systems_[range].inverse_hessian * gradient;
 }
 
 double ReducedBundleCost::PointLoss(const ReducedPoint& range, const Eigen::Vector3d& point) const {

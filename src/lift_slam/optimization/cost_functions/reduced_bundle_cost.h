@@ -38,7 +38,8 @@ struct ReducedBundleOptions {
 // The points belong to the state of this object. A step of the cameras takes each point along by
 // its own Gauss-Newton step given that of the cameras, so that both together are the step of the
 // whole problem (Schur complement; Triggs et al., Bundle Adjustment, A Modern Synthesis, sec. 6.1);
-// a point which that step makes worse stays where it was. Residuals and Jacobian are those of
+// a point
+// which that step makes worse makes a shorter one or stays. Residuals and Jacobian are those of
 // compressed_normal_equations.h for the reduced camera system
 //   S = H_cc - H_cp H_pp^-1 H_pc,  g = g_c - H_cp H_pp^-1 g_p.
 // Relies on TinySolver asking for a Jacobian only at the start and at the trial just evaluated.
@@ -79,7 +80,10 @@ class ReducedBundleCost {
   void ApplyRotationChain() const;
   // The sum of losses after the cameras have moved; moves trial_points_ along.
   double TrialSquaredNorm(const Eigen::VectorXd& parameters) const;
-  Eigen::Vector3d PredictPoint(std::size_t range, const Eigen::VectorXd& camera_steps) const;
+  // Sets the point's trial and returns its loss there.
+  double MovePoint(std::size_t range, const Eigen::VectorXd& camera_steps) const;
+  // The Gauss-Newton step of a point when the cameras move by `camera_steps` (tangent of the pose).
+  Eigen::Vector3d PointStep(std::size_t range, const Eigen::VectorXd& camera_steps) const;
   double PointLoss(const ReducedPoint& range, const Eigen::Vector3d& point) const;
 
   ReducedBundleOptions options_;
