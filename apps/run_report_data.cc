@@ -202,6 +202,14 @@ ReportTable SpeedTable(const FinishedRun& finished) {
   return table;
 }
 
+// For people; "radial_tangential" and so on are Camera::ModelName.
+const char* DistortionName(const Distortion& distortion) {
+  if (std::holds_alternative<RadialTangential>(distortion)) return "radial-tangential distortion";
+  if (std::holds_alternative<KannalaBrandt>(distortion)) return "Kannala-Brandt fisheye";
+  if (std::holds_alternative<FieldOfView>(distortion)) return "field-of-view distortion";
+  return "pinhole without distortion";
+}
+
 ReportTable ProvenanceTable(const FinishedRun& finished) {
   const Provenance& p = finished.provenance;
   ReportTable table;
@@ -214,9 +222,9 @@ ReportTable ProvenanceTable(const FinishedRun& finished) {
   table.rows.push_back(
       {"camera",
        fmt::format("{} x {} px, {}, fx {} fy {} cx {} cy {}", camera.pinhole.width,
-                   camera.pinhole.height, camera.ModelName(), FormatNumber(camera.pinhole.fx, 6),
-                   FormatNumber(camera.pinhole.fy, 6), FormatNumber(camera.pinhole.cx, 6),
-                   FormatNumber(camera.pinhole.cy, 6)),
+                   camera.pinhole.height, DistortionName(camera.distortion),
+                   FormatNumber(camera.pinhole.fx, 6), FormatNumber(camera.pinhole.fy, 6),
+                   FormatNumber(camera.pinhole.cx, 6), FormatNumber(camera.pinhole.cy, 6)),
        "", camera.source});
   for (const auto& [name, value] : finished.settings) table.rows.push_back({name, value, "", ""});
   for (const std::string& warning : finished.warnings) {
