@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
 #include <system_error>
@@ -93,9 +92,7 @@ void WriteRunOutputs(const FinishedRun& finished, const fs::path& folder,
   if (options.report) {
     WriteTextAtomically(folder / "report.html", ReportHtml(finished.run, MakeReportData(finished)));
   }
-  const std::string json =
-      RunResultJson(finished).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-  WriteTextAtomically(folder / "result.json", json + "\n");
+  WriteTextAtomically(folder / "result.json", RunResultJson(finished));
 }
 
 }  // namespace lift_slam

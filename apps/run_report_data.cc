@@ -115,10 +115,11 @@ void AddStatistics(const std::string& name, const std::optional<ErrorStatistics>
   if (!statistics) return;
   const ErrorStatistics& s = *statistics;
   table.rows.push_back({name + " RMSE", FormatNumber(s.rmse), unit, note});
-  table.rows.push_back(
-      {name + " mean / median", FormatNumber(s.mean) + " / " + FormatNumber(s.median), unit, ""});
-  table.rows.push_back(
-      {name + " min / max", FormatNumber(s.min) + " / " + FormatNumber(s.max), unit, ""});
+  const std::pair<const char*, double> others[] = {
+      {" mean", s.mean}, {" median", s.median}, {" smallest", s.min}, {" largest", s.max}};
+  for (const auto& [which, value] : others) {
+    table.rows.push_back({name + which, FormatNumber(value), unit, ""});
+  }
 }
 
 ReportTable AccuracyTable(const FinishedRun& finished) {
@@ -128,7 +129,7 @@ ReportTable AccuracyTable(const FinishedRun& finished) {
   AddStatistics("ATE", result.ate_m, "m", "distance to the ground truth", table);
   if (evaluation.online_ate_m) {
     table.rows.push_back({"ATE RMSE, online", FormatNumber(evaluation.online_ate_m->rmse), "m",
-                          "poses as given when the frame was processed"});
+                          "poses as first given"});
   }
   if (evaluation.keyframes_ate_m) {
     table.rows.push_back(
@@ -141,7 +142,7 @@ ReportTable AccuracyTable(const FinishedRun& finished) {
     table.rows.push_back({"Alignment", std::string(Name(result.options.alignment)), "",
                           fmt::format("{} pairs", result.num_alignment_pairs)});
     table.rows.push_back(
-        {"Scale", FormatNumber(result.reference_from_estimate->scale), "m per map unit", ""});
+        {"Scale", FormatNumber(result.reference_from_estimate->scale), "m/unit", ""});
   }
   return table;
 }
@@ -195,11 +196,18 @@ ReportTable SpeedTable(const FinishedRun& finished) {
   ReportTable table{"Speed", {}};
   table.rows.push_back({"Whole run", fmt::format("{:.2f}", finished.run.wall_time_s), "s",
                         fmt::format("{:.1f} frames/s", FramesPerSecond(finished.run))});
-  table.rows.push_back({"Per frame, median / mean",
-                        fmt::format("{:.1f} / {:.1f}", t.median_ms, t.mean_ms), "ms",
-                        "extraction and tracking"});
+  table.rows.push_back(
+      {"Per frame, median", fmt::format("{:.1f}", t.median_ms), "ms", "extraction and tracking"});
   table.rows.push_back({"Per frame, 95 % below", fmt::format("{:.1f}", t.p95_ms), "ms", ""});
   return table;
+}
+
+// For people; "radial_tangential" and so on are Camera::ModelName.
+const char* DistortionName(const Distortion& distortion) {
+  if (std::holds_alternative<RadialTangential>(distortion)) return "radial-tangential distortion";
+  if (std::holds_alternative<KannalaBrandt>(distortion)) return "Kannala-Brandt fisheye";
+  if (std::holds_alternative<FieldOfView>(distortion)) return "field-of-view distortion";
+  return "pinhole without distortion";
 }
 
 ReportTable ProvenanceTable(const FinishedRun& finished) {
@@ -214,9 +222,9 @@ ReportTable ProvenanceTable(const FinishedRun& finished) {
   table.rows.push_back(
       {"camera",
        fmt::format("{} x {} px, {}, fx {} fy {} cx {} cy {}", camera.pinhole.width,
-                   camera.pinhole.height, camera.ModelName(), FormatNumber(camera.pinhole.fx, 6),
-                   FormatNumber(camera.pinhole.fy, 6), FormatNumber(camera.pinhole.cx, 6),
-                   FormatNumber(camera.pinhole.cy, 6)),
+                   camera.pinhole.height, DistortionName(camera.distortion),
+                   FormatNumber(camera.pinhole.fx, 6), FormatNumber(camera.pinhole.fy, 6),
+                   FormatNumber(camera.pinhole.cx, 6), FormatNumber(camera.pinhole.cy, 6)),
        "", camera.source});
   for (const auto& [name, value] : finished.settings) table.rows.push_back({name, value, "", ""});
   for (const std::string& warning : finished.warnings) {

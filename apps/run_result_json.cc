@@ -66,7 +66,7 @@ Json ProvenanceJson(const FinishedRun& finished) {
 
 }  // namespace
 
-Json RunResultJson(const FinishedRun& finished) {
+std::string RunResultJson(const FinishedRun& finished) {
   const RunRecord& run = finished.run;
   Json json = ToJson(finished.evaluation.final_trajectory);
   json["dataset"] = finished.dataset;
@@ -84,7 +84,8 @@ Json RunResultJson(const FinishedRun& finished) {
   json["interrupted"] = run.interrupted;
   json["warnings"] = finished.warnings;
   json["provenance"] = ProvenanceJson(finished);
-  return json;
+  // Names from outside may hold bytes that are not UTF-8: those become U+FFFD.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace lift_slam

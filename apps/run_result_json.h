@@ -1,16 +1,16 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "apps/finished_run.h"
 
 namespace lift_slam {
 
-// result.json of a run: the evaluation's object (ToJson in evaluation/result_json.h) and
+// Text of result.json: the evaluation's object (ToJson in evaluation/result_json.h) and
 //   configuration, ate_online, ate_keyframes (as ate, or null), map {maps, keyframes, points},
 //   states {initializing, tracking, lost: frames}, refusals {reason: frames}, counters
 //   {"stage.reason": n}, timing {wall_time_s, frames_per_s, frame_ms, stages {name: ...}},
 //   memory {peak_bytes}, interrupted, warnings, provenance.
-nlohmann::ordered_json RunResultJson(const FinishedRun& finished);
+std::string RunResultJson(const FinishedRun& finished);
 
 }  // namespace lift_slam

@@ -21,9 +21,9 @@ h2{font-size:19px;margin:44px 0 14px;padding-top:18px;border-top:1px solid var(-
 .s-ok{background:var(--ok-bg)}.s-ok b{color:var(--ok)}.s-ok b::before{content:"\2713"}
 .s-mid{background:var(--mid-bg)}.s-mid b{color:var(--mid)}.s-mid b::before{content:"!"}
 .s-bad{background:var(--bad-bg)}.s-bad b{color:var(--bad)}.s-bad b::before{content:"\2715"}
-.key{display:grid;grid-template-columns:repeat(auto-fit,minmax(124px,1fr));gap:1px;margin:0;background:var(--rule);
+.key{display:grid;grid-template-columns:repeat(auto-fit,minmax(124px,1fr));margin:0;
 border:1px solid var(--rule);border-radius:10px;overflow:hidden}
-.key div{background:var(--page);padding:12px 16px}
+.key div{padding:12px 16px;box-shadow:1px 0 0 var(--rule),0 1px 0 var(--rule)}
 .key dt{color:var(--soft);font-size:13px}.key dd{margin:0;font-size:23px;line-height:1.3;font-weight:600;font-variant-numeric:tabular-nums;white-space:nowrap}
 .key p{margin:2px 0 0;color:var(--soft);font-size:12px;line-height:1.35}
 .unit{font-weight:400;font-size:.72em;color:var(--soft)}
@@ -38,7 +38,7 @@ figcaption,.cap{font-size:14px;font-weight:600;margin:0 0 8px}
 .notice{background:var(--panel);border-radius:10px;padding:28px 28px;margin:0}
 .notice strong{display:block;font-size:21px;line-height:1.35;font-weight:600;margin-bottom:10px}
 .notice ul{margin:0;padding:0;list-style:none}.notice li{display:grid;grid-template-columns:180px 1fr;padding:3px 0}
-.viewer{position:relative;border-radius:8px;overflow:hidden;background:#13161b}
+.viewer{position:relative;border-radius:8px;overflow:hidden;background:#13161b;border:1px solid var(--rule)}
 .viewer canvas{display:block;width:100%;aspect-ratio:560/446;cursor:grab;touch-action:none}
 .viewer canvas:active{cursor:grabbing}.viewer canvas:focus-visible{outline:2px solid var(--bar);outline-offset:-2px}
 .viewer select{position:absolute;top:10px;right:10px}
@@ -58,7 +58,7 @@ table.narrow{width:auto;min-width:440px}details th{width:200px}
 thead th{color:var(--soft);font-size:13px;border-top:0;padding-top:0}
 .num{text-align:right;white-space:nowrap}.val{overflow-wrap:anywhere}
 td.share{width:120px;padding-top:11px}.share i{display:block;height:8px;border-radius:2px;background:var(--bar);min-width:1px}
-.columns{columns:2;column-gap:40px}.columns table,.columns .scroll{break-inside:avoid;margin:0 0 26px}
+.columns{columns:2;column-gap:40px}.columns th{width:36%}.columns .val{white-space:nowrap}.columns table,.columns .scroll{break-inside:avoid;margin:0 0 26px}
 .scroll+.scroll{margin-top:28px}
 details{border-top:1px solid var(--rule);padding:10px 0}details:last-of-type{border-bottom:1px solid var(--rule)}
 summary{cursor:pointer;font-weight:600}details>*:not(summary){margin-top:10px}
