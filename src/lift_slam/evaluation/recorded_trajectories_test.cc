@@ -84,6 +84,25 @@ TEST_F(Kitti00, RpeOfSptamIsThePublishedOne) {
               0.01875232105572263, 1.2065944255781629});
 }
 
+// The benchmark's formula, computed apart from this code from the matrices as they are stored.
+TEST_F(Kitti00, RelativeErrorIsThatOfTheBenchmark) {
+  struct {
+    const char* estimate;
+    double t_rel_pct, r_rel_deg_per_m;
+  } const expected[] = {{"KITTI_00_ORB.txt", 0.6997289, 0.0025356},
+                        {"KITTI_00_SPTAM.txt", 1.4869597, 0.0055775}};
+  for (const auto& [estimate, t_rel_pct, r_rel_deg_per_m] : expected) {
+    EvaluationOptions options;
+    options.alignment = AlignmentMode::kSe3;
+    const KittiError error =
+        *EvaluateFiles(folder_ / estimate, folder_ / "KITTI_00_gt.txt", options).kitti;
+    EXPECT_EQ(error.all.num_segments, 3283);
+    EXPECT_NEAR(error.all.translation_pct, t_rel_pct, 1e-5);
+    // acos of the stored trace, six digits in the files, loses digits that the angle keeps.
+    EXPECT_NEAR(error.all.rotation_deg_per_m, r_rel_deg_per_m, 5e-6);
+  }
+}
+
 // ATE in cm of the perfect camera trajectory against the body positions: the lever arm alone.
 struct LeverArm {
   const char* sequence;

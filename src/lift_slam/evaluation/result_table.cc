@@ -39,6 +39,9 @@ std::string FormatSettings(const EvaluationResult& result) {
                         result.options.association.max_time_difference_ms,
                         result.options.association.interpolate ? ", interpolated" : "");
   }
+  if (result.coverage.source == FrameListSource::kInferred) {
+    text += "input frames: inferred from the estimate's rate and the reference's time span\n";
+  }
   text += fmt::format("alignment: {}", Name(result.options.alignment));
   if (result.reference_from_estimate) {
     text += fmt::format(", {} pairs, scale {:.9g}", result.num_alignment_pairs,

@@ -107,14 +107,19 @@ Run ReadRun(const ResultReader& reader, const std::filesystem::path& path) {
   return run;
 }
 
+std::string PairingText(const ResultReader& reader) {
+  const std::string method = reader.Text("/association/method");
+  if (method != "time") return "pairs by " + method;
+  return fmt::format("pairs by time (at most {} ms apart)",
+                     reader.Number("/association/max_time_difference_ms"));
+}
+
 std::string SettingsLine(const ResultReader& reader) {
   return fmt::format(
-      "Alignment {}, reference positions of the {}, pairs by {} (time difference at most {} ms). "
-      "OK: coverage at least {:.0f} %; partial: at least {:.0f} %; lost for more than {} s at the "
-      "end is a failure.",
+      "Alignment {}, reference positions of the {}, {}. OK: coverage at least {:.0f} %; partial: "
+      "at least {:.0f} %; lost for more than {} s at the end is a failure.",
       reader.Text("/alignment/mode"), reader.Text("/gt_frame") == "cam" ? "camera" : "body (IMU)",
-      reader.Text("/association/method"), reader.Number("/association/max_time_difference_ms"),
-      100.0 * reader.Number("/thresholds/min_ok_coverage"),
+      PairingText(reader), 100.0 * reader.Number("/thresholds/min_ok_coverage"),
       100.0 * reader.Number("/thresholds/min_partial_coverage"),
       reader.Number("/thresholds/max_lost_at_end_s"));
 }
@@ -202,11 +207,22 @@ std::string MarkdownRow(const std::vector<std::string>& cells) {
   return fmt::format("| {} |\n", fmt::join(cells, " | "));
 }
 
+// A name as the text of a table cell.
+std::string MarkdownText(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c == '\n' ? ' ' : c;
+  }
+  return escaped;
+}
+
 std::string MarkdownCells(const RowKey& key, const RowSummary& row) {
   const RunStatistics& ate = row.ate_m;
   const RunStatistics& rotation = row.r_rel_deg_per_m;
-  return MarkdownRow({key.dataset, key.sequence, key.configuration, key.trajectory, key.gt_frame,
-                      key.alignment, fmt::format("{}/{}", row.num_good, row.num_runs),
+  return MarkdownRow({MarkdownText(key.dataset), MarkdownText(key.sequence),
+                      MarkdownText(key.configuration), key.trajectory, key.gt_frame, key.alignment,
+                      fmt::format("{}/{}", row.num_good, row.num_runs),
                       row.skipped ? "-" : fmt::format("{:.1f}", row.mean_coverage_pct),
                       Cell(row, ate, ate.mean, 4), Cell(row, ate, ate.median, 4),
                       Cell(row, ate, ate.min, 4), Cell(row, ate, ate.max, 4),

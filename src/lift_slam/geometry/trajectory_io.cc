@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -115,7 +116,10 @@ Rigid3d ParseMatrixPose(const Row& row, std::size_t first) {
   if (excess.cwiseAbs().maxCoeff() > 2.0 * kMaxRotationNormError || rotation.determinant() < 0.0) {
     row.Fail("the 3x3 block is no rotation matrix (orthonormal, determinant 1)");
   }
-  return {rotation, translation};
+  // The nearest rotation: files hold six or seven digits, which matters over
+  // segments of hundreds of metres.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), translation};
 }
 
 bool LooksLikeNanoseconds(const Row& row) { return ParseDouble(row, 0) > kLeastNanosecondStamp; }
@@ -186,8 +190,9 @@ void SortByTime(const std::filesystem::path& path, TrajectoryFile& file) {
   };
   const auto first_dropped = std::unique(poses.begin(), poses.end(), same);
   if (first_dropped == poses.end()) return;
-  file.warnings.push_back(fmt::format("{}: {} poses repeat a timestamp; the first of each was kept",
-                                      path.string(), poses.end() - first_dropped));
+  file.warnings.push_back(
+      fmt::format("{}: {} pose(s) repeat a timestamp; the first of each was kept", path.string(),
+                  poses.end() - first_dropped));
   poses.erase(first_dropped, poses.end());
 }
 
