@@ -1,0 +1,80 @@
+#include "lift_slam/datasets/text_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "lift_slam/datasets/decimal.h"
+#include "lift_slam/util/file.h"
+#include "lift_slam/util/input_error.h"
+
+namespace lift_slam {
+namespace {
+
+constexpr std::string_view kSeparators = " \t,";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+std::vector<std::string> SplitFields(std::string_view line) {
+  std::vector<std::string> fields;
+  std::size_t begin = line.find_first_not_of(kSeparators);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(kSeparators, begin), line.size());
+    fields.emplace_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kSeparators, end);
+  }
+  return fields;
+}
+
+}  // namespace
+
+double TableRow::Number(std::size_t column) const {
+  const auto value = column < size() ? ParseDouble(fields_[column]) : std::nullopt;
+  if (!value) Fail(fmt::format("a number in column {}", column + 1));
+  if (!std::isfinite(*value)) Fail(fmt::format("a finite number in column {}", column + 1));
+  return *value;
+}
+
+std::int64_t TableRow::SecondsAsNs(std::size_t column) const {
+  const auto value = column < size() ? ParseSecondsAsNs(fields_[column]) : std::nullopt;
+  if (!value) Fail(fmt::format("a time in seconds in column {}", column + 1));
+  return *value;
+}
+
+std::int64_t TableRow::Index(std::size_t column) const {
+  const auto value = column < size() ? ParseScaledDecimal(fields_[column], 0) : std::nullopt;
+  if (!value) Fail(fmt::format("a whole number in column {}", column + 1));
+  return *value;
+}
+
+std::vector<double> TableRow::Numbers(std::size_t first, std::size_t count) const {
+  std::vector<double> values;
+  for (std::size_t column = first; column < first + count; ++column) {
+    values.push_back(Number(column));
+  }
+  return values;
+}
+
+void TableRow::Fail(std::string_view expected) const {
+  std::string found = fmt::format("{}", fmt::join(fields_, " "));
+  constexpr std::size_t kMaxShown = 80;
+  if (found.size() > kMaxShown) found = found.substr(0, kMaxShown) + "...";
+  throw InputError(fmt::format("{}:{}: expected {}, found '{}'", file_, line_, expected, found));
+}
+
+std::vector<TableRow> ReadTable(const std::filesystem::path& path) {
+  std::vector<TableRow> rows;
+  int number = 0;
+  for (const std::string& text : ReadLines(path)) {
+    std::string_view line = text;
+    if (++number == 1 && line.starts_with(kByteOrderMark)) {
+      line.remove_prefix(kByteOrderMark.size());
+    }
+    std::vector<std::string> fields = SplitFields(line);
+    if (fields.empty() || fields.front().front() == '#') continue;
+    rows.emplace_back(path, number, std::move(fields));
+  }
+  return rows;
+}
+
+}  // namespace lift_slam
