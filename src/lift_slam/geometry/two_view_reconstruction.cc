@@ -31,6 +31,11 @@ constexpr double kSignificantParallax = 3.0;
 // Poses that differ less in both are the same solution.
 constexpr double kSamePoseRotationDeg = 1.0;
 constexpr double kSamePoseTranslationDeg = 15.0;
+// When more matches than this share of the inliers stay where they were, the camera stands still
+// and what moves is an object; background far away would show at least a slight rotation.
+constexpr double kMaxStillRatio = 0.5;
+// With parallax in more than this share of the inliers it is the points that are lacking.
+constexpr double kGoodParallaxRatio = 0.5;
 // Turning by less than this is standing still.
 constexpr double kStillRotationDeg = 1.0;
 
@@ -194,6 +199,12 @@ std::optional<Eigen::Vector3d> PointOf(const Rigid3d& cam2_from_cam1,
   return point;
 }
 
+int CountStill(std::span<const NormalizedMatch> matches) {
+  return static_cast<int>(std::count_if(matches.begin(), matches.end(), [](const auto& match) {
+    return SquaredRotationError(Eigen::Matrix3d::Identity(), match) < kChiSquare95With2Dof;
+  }));
+}
+
 void FillMatches(std::span<const NormalizedMatch> matches, const TwoViewOptions& options,
                  TwoViewReconstruction& result) {
   const Rigid3d& pose = result.cam2_from_cam1;
@@ -226,10 +237,13 @@ TwoViewStatus Judge(const TwoViewReconstruction& result, std::size_t num_matches
   const TwoViewStatus no_parallax = result.rotation_deg > kStillRotationDeg
                                         ? TwoViewStatus::kPureRotation
                                         : TwoViewStatus::kLowParallax;
+  if (result.num_still_matches > kMaxStillRatio * inliers) return TwoViewStatus::kLowParallax;
   if (result.num_rotation_inliers > options.max_rotation_ratio * inliers) return no_parallax;
-  if (result.num_points_with_parallax < options.min_points ||
-      result.num_points_with_parallax < options.min_point_ratio * inliers) {
-    return TwoViewStatus::kLowParallax;
+  const double with_parallax = result.num_points_with_parallax;
+  if (with_parallax < options.min_point_ratio * inliers) return TwoViewStatus::kLowParallax;
+  if (with_parallax < options.min_points) {
+    return with_parallax > kGoodParallaxRatio * inliers ? TwoViewStatus::kTooFewPoints
+                                                        : TwoViewStatus::kLowParallax;
   }
   if (result.runner_up_score > options.max_runner_up_ratio * result.score) {
     return TwoViewStatus::kAmbiguousPlanar;
@@ -275,6 +289,7 @@ TwoViewReconstruction ReconstructTwoViews(std::span<const TwoViewMatch> matches,
   for (NormalizedMatch& match : normalized) match.sigma *= result.noise_scale;
   const TwoViewModel rotation = FindRotation(normalized, {10, 50, 0.999}, random);
   result.num_rotation_inliers = rotation.inliers;
+  result.num_still_matches = CountStill(normalized);
   result.rotation_deg = RotationAngle(Eigen::Quaterniond(rotation.matrix)) * kDegrees;
   for (const Hypothesis& start :
        KeepBestDifferent(normalized, AxisPoses(rotation.matrix), kMaxAxisPoses)) {

@@ -44,7 +44,7 @@ struct TwoViewOptions {
   int min_points = 50;                // points with min_parallax_deg, to start a map with
   double min_point_ratio = 0.1;       // of the inliers; a small moving object is not the scene
   double min_parallax_deg = 0.8;      // about 10 px at 700 px focal length: depth to 10 percent
-  double max_rotation_ratio = 0.9;    // matches that a rotation explains, of the pose's inliers
+  double max_rotation_ratio = 0.85;   // matches that a rotation explains, of the pose's inliers
   double max_runner_up_ratio = 0.95;  // score of another pose against the best
   int max_iterations = 300;           // RANSAC samples for the essential matrix
 
@@ -70,6 +70,7 @@ struct TwoViewReconstruction {
   int num_points_with_parallax = 0;  // points with at least min_parallax_deg
   int num_homography_inliers = 0;
   int num_rotation_inliers = 0;
+  int num_still_matches = 0;     // have not moved between the images
   double rotation_deg = 0.0;     // angle of the best pure rotation
   double noise_scale = 1.0;      // real noise against the given sigmas, in [0.25, 1]
   double score = 0.0;            // of the best pose

@@ -126,7 +126,7 @@ TEST(TwoViewReconstruction, RefusesTwoEquallyGoodPlanarPoses) {
   options.shape = SyntheticShape::kPlane;
   options.min_depth = options.max_depth = 2.0;
   options.noise_px = 1.0;
-  const Rigid3d motion = Motion(0.0, {-0.12, 0.0, 0.0});
+  const Rigid3d motion = Motion(0.0, {-0.06, 0.0, 0.0});
   const TwoViewReconstruction result = Reconstruct(MakePair(motion, options));
   EXPECT_EQ(result.status, TwoViewStatus::kAmbiguousPlanar) << Name(result.status);
   EXPECT_GT(result.runner_up_score, 0.95 * result.score);

@@ -1,5 +1,7 @@
 #include "lift_slam/tracking/tracker.h"
 
+#include <cmath>
+
 #include "lift_slam/geometry/absolute_pose.h"
 #include "lift_slam/matching/frame_matcher.h"
 #include "lift_slam/tracking/frame_pose.h"
@@ -112,18 +114,18 @@ bool Tracker::Recover(const Map& map, Frame& frame) const {
 bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const {
   ClearMatches(frame);
   if (MatchFromKeyFrame(map, map.keyframe(keyframe), frame) < options_.min_matches) return false;
-  std::vector<Eigen::Vector2d> normalized;
-  std::vector<Eigen::Vector3d> points;
+  const ViewModel& view = map.view();
+  std::vector<PointMatch> matches;
   for (int i = 0; i < frame.features->size(); ++i) {
     const MapPoint* point = map.FindPoint(frame.map_points[static_cast<std::size_t>(i)]);
     if (point == nullptr) continue;
-    normalized.push_back(map.view().pinhole.Unproject(frame.features->pixel(i)).head<2>());
-    points.push_back(point->position);
+    const auto level = static_cast<std::size_t>(frame.features->level(i));
+    matches.push_back({point->position,
+                       view.pinhole.Unproject(frame.features->pixel(i)).head<2>(),
+                       1.0 / std::sqrt(view.inverse_variance[level])});
   }
-  AbsolutePoseOptions options;
-  options.focal_length_px = map.view().pinhole.fx;
-  options.seed = seed_;
-  const auto pose = EstimateAbsolutePose(normalized, points, options);
+  const auto pose = EstimateAbsolutePose(matches, 0.5 * (view.pinhole.fx + view.pinhole.fy),
+                                         options_.absolute_pose, seed_);
   if (!pose) return false;
   frame.cam_from_world = pose->cam_from_world;
   return OptimizeFramePose(map, options_.pose, frame) >= options_.min_inliers_first;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lift_slam/geometry/absolute_pose.h"
 #include "lift_slam/optimization/pose_optimization.h"
 #include "lift_slam/tracking/keyframe_decision.h"
 #include "lift_slam/util/options.h"
@@ -14,6 +15,7 @@ struct TrackerOptions {
   int max_local_keyframes = 60;        // of the local map
   int recovery_keyframes = 5;          // recent keyframes matched without prediction when lost
   PoseOptimizationOptions pose;
+  AbsolutePoseOptions absolute_pose;
   KeyFrameDecisionOptions keyframe;
 
   void Visit(OptionVisitor& visitor) {
@@ -27,6 +29,7 @@ struct TrackerOptions {
     visitor.Field("recovery_keyframes", recovery_keyframes,
                   "keyframes tried without prediction when tracking fails");
     visitor.Group("pose", pose, "motion-only bundle adjustment");
+    visitor.Group("absolute_pose", absolute_pose, "pose without prediction, by P3P");
     visitor.Group("keyframe", keyframe, "when a frame becomes a keyframe");
   }
 };
