@@ -7,8 +7,11 @@
 
 #include "apps/build_info.h"
 #include "apps/config_command.h"
+#include "apps/evaluate_command.h"
 #include "apps/exit_code.h"
 #include "apps/info_command.h"
+#include "apps/report_command.h"
+#include "apps/run_command.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
 
@@ -17,6 +20,9 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
+    AddRunCommand,
+    AddEvaluateCommand,
+    AddReportCommand,
     AddConfigCommand,
     AddInfoCommand,
 };

@@ -19,6 +19,7 @@ struct FeatureSet {
 struct ScaleLevels {
   int num_levels = 1;
   double scale_factor = 1.2;
+  double sigma_px = 1.0;  // standard deviation of a position on level 0; grows with the scale
 
   double Scale(int level) const;   // scale_factor^level, >= 1
 };

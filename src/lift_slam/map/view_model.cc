@@ -14,8 +14,9 @@ ViewModel MakeViewModel(const PinholeIntrinsics& pinhole, const Eigen::Vector4d&
   model.thresholds = thresholds;
   for (int level = 0; level < levels.num_levels; ++level) {
     const double scale = levels.Scale(level);
+    const double sigma = levels.sigma_px * scale;
     model.scale.push_back(static_cast<float>(scale));
-    model.inverse_variance.push_back(1.0 / (scale * scale));
+    model.inverse_variance.push_back(1.0 / (sigma * sigma));
   }
   return model;
 }

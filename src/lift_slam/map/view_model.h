@@ -22,7 +22,7 @@ struct ViewModel {
   }
 };
 
-// Bounds are those of the undistorted image; sigma of level 0 is one pixel.
+// Bounds are those of the undistorted image.
 ViewModel MakeViewModel(const PinholeIntrinsics& pinhole, const Eigen::Vector4d& min_max_x_y,
                         const ScaleLevels& levels, const MatchingThresholds& thresholds);
 

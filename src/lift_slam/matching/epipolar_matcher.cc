@@ -142,7 +142,10 @@ std::vector<FeatureMatch> MatchAlongEpipolarLines(const KeyFrame& a, const KeyFr
     const auto segment = geometry.SegmentOf(a.features->pixel(i));
     if (!segment) continue;
     const NearestTwo nearest = SearchSegment(a, i, b, geometry, *segment, view, options);
-    if (nearest.best < 0 || nearest.best_distance > view.thresholds.low) continue;
+    if (nearest.best < 0 || nearest.best_distance > view.thresholds.low ||
+        !nearest.IsDistinctive(static_cast<float>(options.max_descriptor_ratio))) {
+      continue;
+    }
     matches.push_back({i, nearest.best});
     distances.push_back(nearest.best_distance);
   }

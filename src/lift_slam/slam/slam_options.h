@@ -11,7 +11,7 @@
 namespace lift_slam {
 
 struct SlamOptions {
-  int seed = 0;                       // of everything random
+  int seed = 0;                       // of everything random; set by the caller, not by Visit
   double recovery_time_s = 1.0;       // a lost map is tried again so long, then a new one is begun
   int min_keyframes_to_keep = 5;      // a map lost with fewer is thrown away ("reset")
   bool final_bundle_adjustment = true;  // of every kept map, when the input has ended
@@ -23,7 +23,6 @@ struct SlamOptions {
   BundleOptions final_bundle = FinalBundleDefaults();
 
   void Visit(OptionVisitor& visitor) {
-    visitor.Field("seed", seed, "of everything random; the same seed gives the same result");
     visitor.Field("recovery_time_s", recovery_time_s,
                   "a lost map is tried again for so long before a new one is begun");
     visitor.Field("min_keyframes_to_keep", min_keyframes_to_keep,

@@ -1,5 +1,7 @@
 #include "lift_slam/tracking/map_initializer.h"
 
+#include <cmath>
+
 #include "lift_slam/util/check.h"
 
 namespace lift_slam {
@@ -103,9 +105,9 @@ TwoViewReconstruction MapInitializer::Reconstruct(const Frame& frame,
     ray.normalized1 =
         view_->pinhole.Unproject(reference().features->pixel(match.a)).head<2>();
     ray.normalized2 = view_->pinhole.Unproject(frame.features->pixel(match.b)).head<2>();
-    ray.sigma_px = static_cast<double>(
-        view_->scale[Index(std::max(reference().features->level(match.a),
-                                    frame.features->level(match.b)))]);
+    const int level =
+        std::max(reference().features->level(match.a), frame.features->level(match.b));
+    ray.sigma_px = 1.0 / std::sqrt(view_->inverse_variance[Index(level)]);
     rays.push_back(ray);
   }
   const double focal_length_px = 0.5 * (view_->pinhole.fx + view_->pinhole.fy);

@@ -32,7 +32,7 @@ std::vector<int> FeaturesPerLevel(int total, int num_levels, double scale_factor
 
 OrbExtractor::OrbExtractor(const OrbOptions& options) : options_(options) {
   options_.Check();
-  scale_levels_ = {options_.num_levels, options_.scale_factor};
+  scale_levels_ = {options_.num_levels, options_.scale_factor, options_.sigma_px};
   scratch_.resize(static_cast<std::size_t>(options_.num_threads));
 }
 

@@ -28,6 +28,7 @@ void OrbOptions::Visit(OptionVisitor& visitor) {
                 "FAST contrast in cells without a corner above fast_threshold");
   visitor.Field("cell_size_px", cell_size_px, "side of those cells");
   visitor.Field("subpixel", subpixel, "corner positions below a pixel");
+  visitor.Field("sigma_px", sigma_px, "noise of a position on the full-size level");
   visitor.Field("num_threads", num_threads, "threads that share the pyramid levels");
 }
 
@@ -38,6 +39,7 @@ void OrbOptions::Check() const {
   CheckRange("fast_threshold", fast_threshold, 1, 254);
   CheckRange("min_fast_threshold", min_fast_threshold, 1, fast_threshold);
   CheckRange("cell_size_px", cell_size_px, 8, 1000);
+  CheckRange("sigma_px", sigma_px, 0.01, 100.0);
   CheckRange("num_threads", num_threads, 1, 64);
 }
 

@@ -19,6 +19,8 @@ struct OrbOptions {
   // Corner positions below a pixel. On KITTI 00 this takes the mean epipolar error of matches
   // between neighbouring frames from 0.52 to 0.32 pixels.
   bool subpixel = true;
+  // Standard deviation of a position on the full-size level, pixels.
+  double sigma_px = 1.0;
   // Threads that share the levels; the result does not depend on it.
   int num_threads = 1;
 

@@ -1,0 +1,147 @@
+#include "apps/run_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "apps/build_info.h"
+#include "apps/config_arguments.h"
+#include "apps/exit_code.h"
+#include "apps/output_folder.h"
+#include "apps/run_outputs.h"
+#include "apps/sequence_arguments.h"
+#include "apps/slam_run.h"
+#include "lift_slam/datasets/sequence_format.h"
+#include "lift_slam/image/image_threads.h"
+#include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_writer.h"
+
+namespace lift_slam {
+namespace {
+
+struct RunArguments {
+  SequenceArguments sequence;
+  ConfigArguments config;
+  std::filesystem::path output;
+  std::string features = "orb";
+  std::optional<int> seed;
+  std::string mode;
+};
+
+ProgramOptions EffectiveOptions(const RunArguments& arguments) {
+  ConfigArguments config = arguments.config;
+  // The dedicated arguments are the last overrides, so that they are checked and named alike.
+  if (arguments.seed) config.overrides.push_back(fmt::format("seed={}", *arguments.seed));
+  if (!arguments.mode.empty()) config.overrides.push_back("mode=" + arguments.mode);
+  if (arguments.features != "orb") {
+    throw InputError(fmt::format("--features '{}': expected 'orb'", arguments.features));
+  }
+  return config.Read();
+}
+
+bool IsKitti(SequenceFormat format) {
+  return format == SequenceFormat::kKittiOdometry || format == SequenceFormat::kKittiRaw;
+}
+
+EvaluationOptions EvaluationFor(const SequenceInfo& info, EvaluationOptions options) {
+  if (info.ground_truth && options.association.method == AssociationMethod::kAuto) {
+    options.association.method =
+        info.ground_truth->by_index ? AssociationMethod::kIndex : AssociationMethod::kTime;
+  }
+  if (info.format == SequenceFormat::kEuroc) {
+    options.association.max_time_difference_ms =
+        std::min(options.association.max_time_difference_ms, kEurocMaxTimeDifferenceMs);
+  }
+  return options;
+}
+
+FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
+                     const RunRecord& record, ProgramOptions& options) {
+  const Trajectory truth = info.ground_truth ? info.ground_truth->poses : Trajectory();
+  FinishedRun finished(record,
+                       EvaluateRun(record, truth, EvaluationFor(info, options.evaluation)));
+  finished.dataset = FormatName(info.format);
+  finished.sequence = info.name;
+  finished.configuration = arguments.features;
+  finished.config_yaml = OptionsToYaml(MakeOptionRoot(options));
+  finished.ground_truth = truth;
+  finished.ground_truth_view = IsKitti(info.format) ? TopView::kXZ : TopView::kXY;
+  finished.provenance =
+      CollectProvenance(kProgramVersion, kGitRevision, MakeOptionRoot(options));
+  finished.settings = {{"mode", std::string(kRunModeNames[static_cast<int>(options.mode)])},
+                       {"seed", std::to_string(options.seed)},
+                       {"source", arguments.sequence.source},
+                       {"calibration", info.camera->source}};
+  if (info.ground_truth) finished.settings.emplace_back("ground truth", info.ground_truth->source);
+  finished.warnings = info.warnings;
+  return finished;
+}
+
+void PrintSummary(const FinishedRun& finished, const std::filesystem::path& output) {
+  const EvaluationResult& result = finished.evaluation.final_trajectory;
+  std::cout << fmt::format("status      {}\ncoverage    {:.1f} % of {} frames\n",
+                           Name(result.status), 100.0 * result.coverage.coverage,
+                           finished.run.frames.size());
+  if (result.ate_m) {
+    std::cout << fmt::format("ATE RMSE    {:.4f} m after {} alignment\n", result.ate_m->rmse,
+                             Name(result.options.alignment));
+  } else if (!finished.ground_truth.empty()) {
+    std::cout << fmt::format("ATE RMSE    none: {}\n", result.no_errors_reason);
+  }
+  for (std::size_t i = 1; i < finished.run.refusals.size(); ++i) {
+    const auto refusal = static_cast<FrameRefusal>(i);
+    if (finished.run.refusals[i] > 0) {
+      std::cout << fmt::format("refused     {} x {}: {}\n", finished.run.refusals[i],
+                               Name(refusal), Explain(refusal));
+    }
+  }
+  std::cout << fmt::format("report      {}\n", (output / "report.html").string());
+}
+
+void Run(const RunArguments& arguments) {
+  ProgramOptions options = EffectiveOptions(arguments);
+  auto sequence = OpenSequence(arguments.sequence.source, arguments.sequence.Options());
+  PrepareOutputFolder(arguments.output);
+  RunLog log(arguments.output / "log.txt");
+  const SequenceInfo info = sequence->info();
+  log.Info(fmt::format("{}: {} ({}), camera {}", arguments.sequence.source, info.name,
+                       FormatName(info.format), info.camera->source));
+  for (const std::string& warning : info.warnings) log.Warning(warning);
+  DisableImageThreads();
+
+  const RunRecord record = RunSlam(std::move(sequence), options, arguments.output, log);
+  const FinishedRun finished = Conclude(arguments, info, record, options);
+  WriteRunOutputs(finished, arguments.output, options.outputs);
+  PrintSummary(finished, arguments.output);
+  log.Info(fmt::format("status {}", Name(finished.evaluation.final_trajectory.status)));
+  if (!log.WriteError().empty()) throw InputError(log.WriteError());
+  const RunStatus status = finished.evaluation.final_trajectory.status;
+  if (status == RunStatus::kFailInit || status == RunStatus::kFailLost) {
+    throw CLI::RuntimeError(kNoTrajectory);
+  }
+}
+
+}  // namespace
+
+void AddRunCommand(CLI::App& app) {
+  const auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command =
+      app.add_subcommand("run", "From a sequence to a trajectory, a map and a report");
+  arguments->sequence.AddTo(*command);
+  command->add_option("--output", arguments->output, "Folder for all results")->required();
+  command->add_option("--features", arguments->features, "Kind of features: orb");
+  arguments->config.AddTo(*command);
+  command->add_option("--seed", arguments->seed, "Of everything random (default 0)");
+  command->add_option("--mode", arguments->mode, "sequential or threaded (default)");
+  command->footer(
+      "Examples:\n"
+      "  lift_slam run kitti/sequences/00 --output runs/00\n"
+      "  lift_slam run drive.mp4 --camera camera.yaml --output runs/drive --frames 0:500:2\n"
+      "  lift_slam run images/ --camera camera.yaml --output runs/x --set slam.orb.max_features=3000\n"
+      "Exit codes: 0 done, 1 bad input, 3 ran but found no usable trajectory (all files written).");
+  command->callback([arguments] { Run(*arguments); });
+}
+
+}  // namespace lift_slam

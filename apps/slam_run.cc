@@ -1,0 +1,119 @@
+#include "apps/slam_run.h"
+
+#include <fmt/format.h>
+
+#include "apps/online_trajectory_writer.h"
+#include "apps/progress_bar.h"
+#include "apps/stop_signal.h"
+#include "lift_slam/datasets/prefetching_sequence.h"
+#include "lift_slam/features/orb/orb_extractor.h"
+#include "lift_slam/slam/pipeline.h"
+#include "lift_slam/util/timer.h"
+
+namespace lift_slam {
+namespace {
+
+FrameRefusal RefusalOf(ImageProblem problem) {
+  switch (problem) {
+    case ImageProblem::kNone:
+      return FrameRefusal::kNone;
+    case ImageProblem::kUnreadable:
+      return FrameRefusal::kImageUnreadable;
+    case ImageProblem::kSizeDiffers:
+      return FrameRefusal::kImageSizeDiffers;
+    case ImageProblem::kTimestampNotIncreasing:
+      return FrameRefusal::kTimestampNotIncreasing;
+  }
+  return FrameRefusal::kImageUnreadable;
+}
+
+std::optional<InputFrame> NextInput(Sequence& sequence, const StopSignal& stop, RunLog& log) {
+  if (stop.Requested()) return std::nullopt;
+  auto frame = sequence.Next();
+  if (!frame) return std::nullopt;
+  InputFrame input;
+  input.frame_index = frame->frame_index;
+  input.timestamp_ns = frame->timestamp_ns;
+  input.refusal = RefusalOf(frame->problem);
+  if (frame->image) input.image = *frame->image;
+  if (frame->problem != ImageProblem::kNone) log.Warning(frame->problem_text);
+  return input;
+}
+
+// Hears of every frame: log, online trajectory, progress.
+class RunObserver {
+ public:
+  RunObserver(const std::filesystem::path& folder, std::optional<std::int64_t> frames_total,
+              const SlamSystem& system, RunLog& log)
+      : online_(folder / "trajectory_online.tum"), system_(system), log_(log) {
+    progress_.frames_total = frames_total;
+  }
+
+  void FrameDone(const FrameRecord& frame) {
+    if (frame.world_from_cam) {
+      online_.Append({frame.frame_index, frame.timestamp_ns, *frame.world_from_cam, PoseState::kOk});
+    }
+    if (frame.state != state_ || frame.refusal != refusal_) {
+      log_.Info(fmt::format("frame {}: {}{}", frame.frame_index, Name(frame.state),
+                            frame.refusal == FrameRefusal::kNone
+                                ? std::string()
+                                : fmt::format(" ({})", Name(frame.refusal))));
+      state_ = frame.state;
+      refusal_ = frame.refusal;
+    }
+    Update();
+    bar_.Update(progress_);
+    ++progress_.frames_done;
+  }
+  void Finish() {
+    Update();
+    bar_.Finish(progress_);
+  }
+
+ private:
+  void Update() {
+    progress_.state = Name(system_.state());
+    progress_.keyframes = system_.num_keyframes();
+    progress_.map_points = system_.num_points();
+  }
+
+  OnlineTrajectoryWriter online_;
+  const SlamSystem& system_;
+  RunLog& log_;
+  ProgressBar bar_;
+  Progress progress_;
+  TrackingState state_ = TrackingState::kInitializing;
+  FrameRefusal refusal_ = FrameRefusal::kNone;
+};
+
+}  // namespace
+
+RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
+                  const std::filesystem::path& folder, RunLog& log) {
+  const SequenceInfo info = sequence->info();
+  if (options.mode == RunMode::kThreaded) {
+    sequence = std::make_unique<PrefetchingSequence>(std::move(sequence));
+  }
+  SlamOptions slam = options.slam;
+  slam.seed = options.seed;
+  FramePreparer preparer(*info.camera, CreateOrbExtractor(slam.orb));
+  SlamSystem system(*info.camera, preparer.view(), slam);
+  const StopSignal stop;
+  RunObserver observer(folder, info.num_frames, system, log);
+  const Timer timer;
+  RunPipeline(options.mode,
+              {[&] { return NextInput(*sequence, stop, log); },
+               [&](const FrameRecord& frame) {
+                 observer.FrameDone(frame);
+                 return !stop.Requested();
+               }},
+              preparer, system);
+  observer.Finish();
+  RunRecord record = system.Finish();
+  record.wall_time_s = timer.ElapsedMs() * 1e-3;
+  record.interrupted = stop.Requested();
+  if (record.interrupted) log.Warning(fmt::format("ended early by {}", stop.Name()));
+  return record;
+}
+
+}  // namespace lift_slam
