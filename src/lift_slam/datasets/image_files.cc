@@ -129,13 +129,22 @@ bool IsWholeJpeg(const std::string& data) {
 }
 
 std::optional<GrayImage> ReadWholeImage(const fs::path& file, std::string* why) {
-  const std::string extension = LowerExtension(file);
-  if ((extension == ".jpg" || extension == ".jpeg") && fs::is_regular_file(file) &&
-      !IsWholeJpeg(ReadText(file))) {
-    if (why != nullptr) *why = file.string() + ": the file is cut off";
+  const auto refuse = [&](const char* reason) -> std::optional<GrayImage> {
+    if (why != nullptr) *why = file.string() + ": " + reason;
     return std::nullopt;
+  };
+  const std::string extension = LowerExtension(file);
+  try {
+    if ((extension == ".jpg" || extension == ".jpeg") && fs::is_regular_file(file) &&
+        !IsWholeJpeg(ReadText(file))) {
+      return refuse("the file is cut off");
+    }
+    return ReadGrayImage(file, why);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return refuse("cannot be read");  // no permission, or a kind of pixel that is not supported
   }
-  return ReadGrayImage(file, why);
 }
 
 }  // namespace lift_slam

@@ -54,6 +54,14 @@ INSTANTIATE_TEST_SUITE_P(Formats, TruncatedImage,
                          testing::Values(".png", ".jpg", ".jpeg", ".pgm", ".bmp", ".tiff",
                                          ".webp"));
 
+TEST(ReadWholeImage, RefusesPixelsThatAreNotSupported) {
+  const TestFolder folder;
+  cv::imwrite((folder / "a.tiff").string(), cv::Mat(8, 12, CV_32SC1, cv::Scalar(7)));
+  std::string why;
+  EXPECT_FALSE(ReadWholeImage(folder / "a.tiff", &why));
+  EXPECT_THAT(why, HasSubstr("a.tiff"));
+}
+
 TEST(IsWholeJpeg, AcceptsBytesAfterTheEnd) {
   const TestFolder folder;
   const std::string data = ReadText(folder.WriteImage("image.jpg", 3, 64, 48));

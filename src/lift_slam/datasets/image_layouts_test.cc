@@ -270,6 +270,21 @@ TEST(TumMono, ReadsIdsTimesAndTheFovModel) {
   EXPECT_THAT(Times(ReadAll(*sequence)), ElementsAre(1444915848789300000, 1444915848829300000));
 }
 
+TEST(TumMono, PairsTimesById) {
+  const TestFolder folder;
+  for (const char* id : {"00000", "00002", "00003"}) {
+    folder.WriteImage(fmt::format("images/{}.png", id));
+  }
+  folder.Write("times.txt", "00000 1.5 1\n00001 1.6 1\n00002 1.7 1\n");
+  folder.Write("camera.txt", "0.5 0.6 0.5 0.5 0.9\n12 8\n");
+  const auto sequence = OpenSequence(folder.path().string());
+  EXPECT_THAT(sequence->info().warnings,
+              ElementsAre(HasSubstr("3 times for 3 images; the 2 images")));
+  const auto frames = ReadAll(*sequence);
+  EXPECT_THAT(Indices(frames), ElementsAre(0, 2));
+  EXPECT_THAT(Times(frames), ElementsAre(1500000000, 1700000000));
+}
+
 TEST(ImageFolder, CountsAtTheCamerasRate) {
   const TestFolder folder;
   for (const char* name : {"f1.png", "f2.jpg", "f10.pgm", "f11.bmp", "f12.tiff"}) {

@@ -61,12 +61,11 @@ Camera ReadRigCamera(const KeyedFile& file, const std::string& prefix,
   if (file.Has(model_key) && file.Text(model_key) != "pinhole") {
     file.Fail(model_key, "pinhole (other projections are not supported)");
   }
-  const std::vector<double> size = file.Has(prefix + "resolution")
-                                       ? file.Numbers(prefix + "resolution", 2)
-                                       : std::vector<double>{0.0, 0.0};
+  const std::vector<int> size = file.Has(prefix + "resolution")
+                                    ? file.WholeNumbers(prefix + "resolution", 2)
+                                    : std::vector<int>{0, 0};
   Camera camera;
-  camera.pinhole = MakePinhole(file.Numbers(prefix + "intrinsics", 4), static_cast<int>(size[0]),
-                               static_cast<int>(size[1]));
+  camera.pinhole = MakePinhole(file.Numbers(prefix + "intrinsics", 4), size[0], size[1]);
   camera.distortion =
       ReadNamedDistortion(file, prefix + "distortion_model", prefix + coefficients_key);
   return camera;

@@ -60,13 +60,18 @@ std::vector<double> KeyedFile::Numbers(const std::string& key, std::size_t count
 
 double KeyedFile::Number(const std::string& key) const { return Numbers(key, 1).front(); }
 
-int KeyedFile::WholeNumber(const std::string& key) const {
-  const double number = Number(key);
-  if (number != std::floor(number) || std::abs(number) > std::numeric_limits<int>::max()) {
-    Fail(key, "a whole number");
+std::vector<int> KeyedFile::WholeNumbers(const std::string& key, std::size_t count) const {
+  std::vector<int> whole;
+  for (const double number : Numbers(key, count)) {
+    if (number != std::floor(number) || std::abs(number) > std::numeric_limits<int>::max()) {
+      Fail(key, count == 1 ? "a whole number" : "whole numbers");
+    }
+    whole.push_back(static_cast<int>(number));
   }
-  return static_cast<int>(number);
+  return whole;
 }
+
+int KeyedFile::WholeNumber(const std::string& key) const { return WholeNumbers(key, 1).front(); }
 
 double KeyedFile::NumberOr(const std::string& key, double fallback) const {
   return Has(key) ? Number(key) : fallback;

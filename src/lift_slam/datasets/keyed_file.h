@@ -30,6 +30,7 @@ class KeyedFile {
   double Number(const std::string& key) const;
   int WholeNumber(const std::string& key) const;
   std::vector<double> Numbers(const std::string& key) const;
+  std::vector<int> WholeNumbers(const std::string& key, std::size_t count) const;
   // The same number of values as asked for, or InputError.
   std::vector<double> Numbers(const std::string& key, std::size_t count) const;
   // The fallback stands for an absent key only.

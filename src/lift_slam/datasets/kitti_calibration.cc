@@ -31,9 +31,8 @@ char CameraDigit(std::string_view camera_name) {
 void ReadSize(const std::vector<TableRow>& rows, const std::string& name, Camera& camera) {
   const TableRow* row = FindRow(rows, name);
   if (row == nullptr) return;
-  const std::vector<double> size = RowNumbers(*row, 2);
-  camera.pinhole.width = static_cast<int>(size[0]);
-  camera.pinhole.height = static_cast<int>(size[1]);
+  camera.pinhole.width = row->SizePx(1);
+  camera.pinhole.height = row->SizePx(2);
 }
 
 const TableRow& RequireRow(const std::vector<TableRow>& rows, const std::string& name,

@@ -18,14 +18,22 @@ SequenceFormat ChooseFormat(const std::string& source, const SequenceOptions& op
                                fmt::join(detection.reasons, "; ")));
 }
 
-}  // namespace
-
-std::unique_ptr<Sequence> OpenSequence(const std::string& source, const SequenceOptions& options) {
-  CheckSequenceOptions(options);
+std::unique_ptr<Sequence> Open(const std::string& source, const SequenceOptions& options) {
   const SequenceFormat format = ChooseFormat(source, options);
   if (format == SequenceFormat::kVideo) return OpenVideoSequence(source, options);
   if (format == SequenceFormat::kLiveCamera) return OpenLiveSequence(source, options);
   return OpenImageListSequence(source, format, options);
+}
+
+}  // namespace
+
+std::unique_ptr<Sequence> OpenSequence(const std::string& source, const SequenceOptions& options) {
+  CheckSequenceOptions(options);
+  try {
+    return Open(source, options);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw InputError(fmt::format("{}: {}", source, error.code().message()));  // no permission
+  }
 }
 
 }  // namespace lift_slam

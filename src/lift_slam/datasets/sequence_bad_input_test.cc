@@ -39,6 +39,10 @@ TEST(BadSource, MissingFolderIsNamed) {
   EXPECT_EQ(OpenError("/nowhere/at/all"), "/nowhere/at/all: no such file or folder");
 }
 
+TEST(BadSource, PathsTheSystemRefusesAreInputErrors) {
+  EXPECT_THAT(OpenError(std::string(5000, 'x')), HasSubstr("too long"));
+}
+
 TEST(BadSource, UnknownLayoutSaysWhatWasLookedFor) {
   const TestFolder folder;
   folder.Write("notes.txt", "x");

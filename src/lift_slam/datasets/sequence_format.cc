@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 8> kFormatNames = {
     "kitti", "kitti_raw", "euroc", "tum_rgbd", "tum_mono", "images", "video", "live"};
 
-bool IsLiveCamera(const std::string& source) {
-  if (source.find("://") != std::string::npos || source.starts_with("/dev/video")) return true;
+bool IsCameraIndex(const std::string& source) {
   return !source.empty() && source.find_first_not_of("0123456789") == std::string::npos;
 }
 
@@ -80,8 +79,11 @@ SequenceFormat ParseFormatName(std::string_view name) {
 }
 
 FormatDetection DetectFormat(const std::string& source) {
-  if (!fs::exists(source) || source.starts_with("/dev/")) {
-    if (IsLiveCamera(source)) return {SequenceFormat::kLiveCamera, {}};
+  if (source.find("://") != std::string::npos || source.starts_with("/dev/video")) {
+    return {SequenceFormat::kLiveCamera, {}};
+  }
+  if (!fs::exists(source)) {
+    if (IsCameraIndex(source)) return {SequenceFormat::kLiveCamera, {}};
     throw InputError(fmt::format("{}: no such file or folder", source));
   }
   if (!fs::is_directory(source)) return DetectFile(source);

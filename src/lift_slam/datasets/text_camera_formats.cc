@@ -105,8 +105,8 @@ Camera ReadColmapCamera(const std::vector<TableRow>& rows, const std::filesystem
                     p[num_focal - 1],
                     p[num_focal] - kCornerToCentrePx,
                     p[num_focal + 1] - kCornerToCentrePx,
-                    static_cast<int>(row.Index(2)),
-                    static_cast<int>(row.Index(3))};
+                    row.SizePx(2),
+                    row.SizePx(3)};
   camera.distortion =
       MakeColmapDistortion(row, model, row.Numbers(4 + num_focal + 2, num_coefficients));
   return camera;
@@ -127,8 +127,8 @@ Camera ReadTumMonoCamera(const std::vector<TableRow>& rows, const std::filesyste
   }
   TumMonoLine line = ReadTumMonoLine(rows[0]);
   if (rows[1].size() != 2) rows[1].Fail("width and height");
-  const int width = static_cast<int>(rows[1].Index(0));
-  const int height = static_cast<int>(rows[1].Index(1));
+  const int width = rows[1].SizePx(0);
+  const int height = rows[1].SizePx(1);
   std::vector<double>& p = line.values;
   const bool relative = p[2] < 1.0 && p[3] < 1.0;
   if (relative) {

@@ -13,6 +13,7 @@ namespace lift_slam {
 namespace {
 
 constexpr std::string_view kSeparators = " \t,";
+constexpr std::int64_t kMaxSizePx = 1'000'000;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::vector<std::string> SplitFields(std::string_view line) {
@@ -45,6 +46,12 @@ std::int64_t TableRow::Index(std::size_t column) const {
   const auto value = column < size() ? ParseScaledDecimal(fields_[column], 0) : std::nullopt;
   if (!value) Fail(fmt::format("a whole number in column {}", column + 1));
   return *value;
+}
+
+int TableRow::SizePx(std::size_t column) const {
+  const std::int64_t size = Index(column);
+  if (size < 1 || size > kMaxSizePx) Fail(fmt::format("an image size in column {}", column + 1));
+  return static_cast<int>(size);
 }
 
 std::vector<double> TableRow::Numbers(std::size_t first, std::size_t count) const {

@@ -25,6 +25,8 @@ class TableRow {
   double Number(std::size_t column) const;
   std::int64_t SecondsAsNs(std::size_t column) const;
   std::int64_t Index(std::size_t column) const;
+  // A width or height, 1 to 1e6 pixels.
+  int SizePx(std::size_t column) const;
   // Columns first to first + count - 1.
   std::vector<double> Numbers(std::size_t first, std::size_t count) const;
 

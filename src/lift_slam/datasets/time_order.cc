@@ -32,12 +32,14 @@ std::vector<bool> KeepIncreasing(std::span<const std::int64_t> timestamps_ns) {
 
 double MedianRateHz(std::span<const std::int64_t> timestamps_ns) {
   if (timestamps_ns.size() < 2) return 0.0;
-  std::vector<std::int64_t> steps;
+  // Unsigned, as the step between two far apart stamps need not fit a signed number.
+  std::vector<std::uint64_t> steps_ns;
   for (std::size_t i = 1; i < timestamps_ns.size(); ++i) {
-    steps.push_back(timestamps_ns[i] - timestamps_ns[i - 1]);
+    steps_ns.push_back(static_cast<std::uint64_t>(timestamps_ns[i]) -
+                       static_cast<std::uint64_t>(timestamps_ns[i - 1]));
   }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
+  const auto middle = steps_ns.begin() + static_cast<std::ptrdiff_t>(steps_ns.size() / 2);
+  std::nth_element(steps_ns.begin(), middle, steps_ns.end());
   return *middle > 0 ? 1e9 / static_cast<double>(*middle) : 0.0;
 }
 

@@ -1,6 +1,8 @@
 // TUM RGB-D and TUM-mono.
 #include <fmt/format.h>
 
+#include <map>
+
 #include "lift_slam/datasets/camera_file.h"
 #include "lift_slam/datasets/image_files.h"
 #include "lift_slam/datasets/image_list.h"
@@ -57,25 +59,30 @@ void ReadTumRgbdCalibration(const LayoutRequest& request, ImageList& list) {
   }
 }
 
-// Lines "id time exposure"; exposure may be absent.
+// Lines "id time exposure" (exposure may be absent), where the id is the number of the image.
 std::vector<ListedImage> ReadTumMonoTimes(const fs::path& times_file, const fs::path& image_folder,
                                           std::vector<std::string>& warnings) {
+  std::map<std::int64_t, fs::path> files;
+  for (const fs::path& file : ListImages(image_folder)) {
+    const auto number = ImageNumber(file);
+    if (!number) throw InputError(fmt::format("{}: its name is no number", file.string()));
+    files[*number] = file;
+  }
   const std::vector<TableRow> rows = ReadTable(times_file);
-  const std::vector<fs::path> files = ListImages(image_folder);
   std::vector<ListedImage> images;
-  for (std::size_t i = 0; i < rows.size() && i < files.size(); ++i) {
-    if (rows[i].size() < 2) rows[i].Fail("id, time in seconds and exposure");
-    const auto number = ImageNumber(files[i]);
-    if (number && *number != rows[i].Index(0)) {
-      rows[i].Fail(fmt::format("the id of image {}", files[i].filename().string()));
-    }
-    images.push_back({rows[i].Index(0), rows[i].SecondsAsNs(1), files[i]});
+  for (const TableRow& row : rows) {
+    if (row.size() < 2) row.Fail("id, time in seconds and exposure");
+    const auto file = files.find(row.Index(0));
+    if (file != files.end()) images.push_back({file->first, row.SecondsAsNs(1), file->second});
   }
-  if (rows.size() != files.size()) {
-    warnings.push_back(fmt::format("{} has {} times for {} images; {} are used",
-                                   times_file.string(), rows.size(), files.size(), images.size()));
+  if (rows.size() != files.size() || images.size() != files.size()) {
+    warnings.push_back(
+        fmt::format("{} has {} times for {} images; the {} images that have one are used",
+                    times_file.string(), rows.size(), files.size(), images.size()));
   }
-  if (images.empty()) throw InputError(fmt::format("{}: lists no image", times_file.string()));
+  if (images.empty()) {
+    throw InputError(fmt::format("{}: has no time for any image", times_file.string()));
+  }
   return images;
 }
 

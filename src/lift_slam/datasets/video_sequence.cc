@@ -19,6 +19,8 @@ constexpr double kNominalRateHz = 30.0;
 // A source that only hands out broken images would never end.
 constexpr int kMaxUndecodableInARow = 100;
 
+constexpr std::int64_t kNoTimeNs = std::numeric_limits<std::int64_t>::min();
+
 enum class TimeSource { kNominalRate, kContainer, kArrival };
 
 struct VideoClock {
@@ -67,8 +69,8 @@ class VideoSequence : public Sequence {
   std::int64_t TimeNs(std::int64_t frame_index) const {
     switch (clock_.source) {
       case TimeSource::kContainer:
-        // -1 ns stands for none and is refused as not increasing.
-        return reader_.ContainerTimeNs().value_or(-1);
+        // A frame without time is refused as not increasing.
+        return reader_.ContainerTimeNs().value_or(kNoTimeNs);
       case TimeSource::kArrival:
         return NowNs(std::chrono::steady_clock::now()) + system_minus_steady_ns_;
       case TimeSource::kNominalRate:
@@ -103,7 +105,7 @@ class VideoSequence : public Sequence {
   SequenceOptions options_;
   std::int64_t system_minus_steady_ns_;
   std::int64_t next_index_ = 0;
-  std::int64_t last_time_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::int64_t last_time_ns_ = kNoTimeNs;
   int num_undecodable_ = 0;
   bool ended_ = false;
 };
