@@ -20,11 +20,7 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
-    AddRunCommand,
-    AddEvaluateCommand,
-    AddReportCommand,
-    AddConfigCommand,
-    AddInfoCommand,
+    AddRunCommand, AddEvaluateCommand, AddReportCommand, AddConfigCommand, AddInfoCommand,
 };
 
 void AddEverything(CLI::App& app) {

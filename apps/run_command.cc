@@ -60,16 +60,14 @@ EvaluationOptions EvaluationFor(const SequenceInfo& info, EvaluationOptions opti
 FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
                      const RunRecord& record, ProgramOptions& options) {
   const Trajectory truth = info.ground_truth ? info.ground_truth->poses : Trajectory();
-  FinishedRun finished(record,
-                       EvaluateRun(record, truth, EvaluationFor(info, options.evaluation)));
+  FinishedRun finished(record, EvaluateRun(record, truth, EvaluationFor(info, options.evaluation)));
   finished.dataset = FormatName(info.format);
   finished.sequence = info.name;
   finished.configuration = arguments.features;
   finished.config_yaml = OptionsToYaml(MakeOptionRoot(options));
   finished.ground_truth = truth;
   finished.ground_truth_view = IsKitti(info.format) ? TopView::kXZ : TopView::kXY;
-  finished.provenance =
-      CollectProvenance(kProgramVersion, kGitRevision, MakeOptionRoot(options));
+  finished.provenance = CollectProvenance(kProgramVersion, kGitRevision, MakeOptionRoot(options));
   finished.settings = {{"mode", std::string(kRunModeNames[static_cast<int>(options.mode)])},
                        {"seed", std::to_string(options.seed)},
                        {"source", arguments.sequence.source},
@@ -93,8 +91,8 @@ void PrintSummary(const FinishedRun& finished, const std::filesystem::path& outp
   for (std::size_t i = 1; i < finished.run.refusals.size(); ++i) {
     const auto refusal = static_cast<FrameRefusal>(i);
     if (finished.run.refusals[i] > 0) {
-      std::cout << fmt::format("refused     {} x {}: {}\n", finished.run.refusals[i],
-                               Name(refusal), Explain(refusal));
+      std::cout << fmt::format("refused     {} x {}: {}\n", finished.run.refusals[i], Name(refusal),
+                               Explain(refusal));
     }
   }
   std::cout << fmt::format("report      {}\n", (output / "report.html").string());
@@ -139,7 +137,8 @@ void AddRunCommand(CLI::App& app) {
       "Examples:\n"
       "  lift_slam run kitti/sequences/00 --output runs/00\n"
       "  lift_slam run drive.mp4 --camera camera.yaml --output runs/drive --frames 0:500:2\n"
-      "  lift_slam run images/ --camera camera.yaml --output runs/x --set slam.orb.max_features=3000\n"
+      "  lift_slam run images/ --camera camera.yaml --output runs/x --set "
+      "slam.orb.max_features=3000\n"
       "Exit codes: 0 done, 1 bad input, 3 ran but found no usable trajectory (all files written).");
   command->callback([arguments] { Run(*arguments); });
 }

@@ -57,7 +57,8 @@ void SequenceArguments::AddTo(CLI::App& command) {
                      "Calibration file: own YAML, OpenCV, Kalibr, ORB-SLAM or COLMAP cameras.txt");
   command.add_option("--ground-truth", ground_truth_file, "Poses: TUM, KITTI or EuRoC csv");
   command.add_option("--frames", frames, "Part of the input, LAST included: FIRST:LAST:STEP");
-  command.add_option("--camera-name", camera_name, "Which camera of a rig, such as image_2 or cam1");
+  command.add_option("--camera-name", camera_name,
+                     "Which camera of a rig, such as image_2 or cam1");
   command.add_option("--frame-rate-hz", frame_rate_hz, "Rate of images without timestamps");
 }
 

@@ -13,10 +13,10 @@ namespace lift_slam {
 // The arguments that choose an input: a path, camera index or URL, and how to read it.
 struct SequenceArguments {
   std::string source;
-  std::string format;        // empty: found out from the folder
+  std::string format;  // empty: found out from the folder
   std::string camera_file;
   std::string ground_truth_file;
-  std::string frames;        // "FIRST:LAST:STEP", each may be left out
+  std::string frames;  // "FIRST:LAST:STEP", each may be left out
   std::string camera_name;
   double frame_rate_hz = 0.0;
 

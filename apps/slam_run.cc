@@ -51,7 +51,8 @@ class RunObserver {
 
   void FrameDone(const FrameRecord& frame) {
     if (frame.world_from_cam) {
-      online_.Append({frame.frame_index, frame.timestamp_ns, *frame.world_from_cam, PoseState::kOk});
+      online_.Append(
+          {frame.frame_index, frame.timestamp_ns, *frame.world_from_cam, PoseState::kOk});
     }
     if (frame.state != state_ || frame.refusal != refusal_) {
       log_.Info(fmt::format("frame {}: {}{}", frame.frame_index, Name(frame.state),

@@ -13,9 +13,9 @@ enum class DescriptorMetric { kHamming, kL2 };
 // Who made the descriptors and how they are compared. Descriptors of different kinds are never
 // compared: the matcher checks this.
 struct DescriptorKind {
-  std::string name;                                     // "orb", or "lift:" and the weights' hash
+  std::string name;  // "orb", or "lift:" and the weights' hash
   DescriptorMetric metric = DescriptorMetric::kHamming;
-  int dimension = 0;                                    // bits for Hamming, floats for L2
+  int dimension = 0;  // bits for Hamming, floats for L2
 
   std::size_t BytesPerRow() const;
   friend bool operator==(const DescriptorKind&, const DescriptorKind&) = default;
@@ -37,15 +37,17 @@ class Descriptors {
   const DescriptorKind& kind() const { return kind_; }
   std::size_t size() const { return rows_; }
   DescriptorView row(std::size_t i) const { return {data() + i * stride_, stride_}; }
-  std::span<std::byte> mutable_row(std::size_t i) { return {mutable_data() + i * stride_, stride_}; }
+  std::span<std::byte> mutable_row(std::size_t i) {
+    return {mutable_data() + i * stride_, stride_};
+  }
   const std::byte* data() const;
   std::byte* mutable_data();
 
  private:
   DescriptorKind kind_;
   std::size_t rows_ = 0;
-  std::size_t stride_ = 0;               // BytesPerRow
-  std::vector<std::uint64_t> words_;     // keeps rows 8-byte aligned
+  std::size_t stride_ = 0;            // BytesPerRow
+  std::vector<std::uint64_t> words_;  // keeps rows 8-byte aligned
 };
 
 }  // namespace lift_slam

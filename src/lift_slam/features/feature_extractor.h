@@ -21,13 +21,13 @@ struct ScaleLevels {
   double scale_factor = 1.2;
   double sigma_px = 1.0;  // standard deviation of a position on level 0; grows with the scale
 
-  double Scale(int level) const;   // scale_factor^level, >= 1
+  double Scale(int level) const;  // scale_factor^level, >= 1
 };
 
 // Distances below which two descriptors are taken for the same point; in the kind's own metric.
 struct MatchingThresholds {
-  float low = 0.0F;    // TH_LOW: strict, wide search (paper sec. III-B)
-  float high = 0.0F;   // TH_HIGH: loose, guided search
+  float low = 0.0F;   // TH_LOW: strict, wide search (paper sec. III-B)
+  float high = 0.0F;  // TH_HIGH: loose, guided search
 };
 
 // Finds and describes features. One object serves one thread.

@@ -12,9 +12,9 @@ enum class PoseState { kOk, kLost, kNotInitialized };
 
 // One frame of a trajectory. The pose counts only when the state is kOk.
 struct TrajectoryPose {
-  std::int64_t frame_index = -1;   // index in the source sequence; -1: unknown
-  std::int64_t timestamp_ns = 0;   // from the sequence, exact
-  Rigid3d world_from_cam;          // camera to world, "T_wc"
+  std::int64_t frame_index = -1;  // index in the source sequence; -1: unknown
+  std::int64_t timestamp_ns = 0;  // from the sequence, exact
+  Rigid3d world_from_cam;         // camera to world, "T_wc"
   PoseState state = PoseState::kOk;
 };
 

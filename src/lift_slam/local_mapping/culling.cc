@@ -4,7 +4,7 @@ namespace lift_slam {
 namespace {
 
 constexpr int kMinObservers = 3;
-constexpr int kTestKeyFrames = 3;   // a point has passed after so many keyframes
+constexpr int kTestKeyFrames = 3;  // a point has passed after so many keyframes
 
 bool IsRedundantIn(const Map& map, const KeyFrame& keyframe, int feature, const MapPoint& point) {
   if (point.num_observations() <= kMinObservers) return false;
@@ -32,8 +32,7 @@ bool IsRedundant(const Map& map, const KeyFrame& keyframe, double redundant_shar
 
 }  // namespace
 
-int CullRecentPoints(const LocalMapperOptions& options, Map& map,
-                     std::vector<MapPointId>& recent) {
+int CullRecentPoints(const LocalMapperOptions& options, Map& map, std::vector<MapPointId>& recent) {
   int erased = 0;
   std::vector<MapPointId> still_recent;
   for (const MapPointId id : recent) {

@@ -24,9 +24,8 @@ std::vector<KeyFrameId> StrongestObservers(const std::vector<KeyFrameId>& free, 
   for (const KeyFrameId id : free) shared.erase(id);
   std::vector<CovisibilityGraph::Neighbor> sorted;
   for (const auto& [id, count] : shared) sorted.push_back({id, count});
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
-    return a.shared_points > b.shared_points;
-  });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.shared_points > b.shared_points; });
   std::vector<KeyFrameId> observers;
   for (const auto& observer : sorted) {
     if (static_cast<int>(observers.size()) == max_count) break;
@@ -67,9 +66,8 @@ MappingReport LocalMapper::Process(KeyFrameId keyframe, Map& map) {
 
 MapBundleReport LocalMapper::AdjustLocalBundle(KeyFrameId keyframe, Map& map) const {
   std::vector<KeyFrameId> free = {keyframe};
-  for (const auto& neighbor :
-       map.covisibility().Neighbors(keyframe, options_.bundle_min_shared_points,
-                                    options_.bundle_free_keyframes - 1)) {
+  for (const auto& neighbor : map.covisibility().Neighbors(
+           keyframe, options_.bundle_min_shared_points, options_.bundle_free_keyframes - 1)) {
     free.push_back(neighbor.keyframe);
   }
   std::vector<KeyFrameId> fixed = StrongestObservers(free, options_.bundle_fixed_keyframes, map);

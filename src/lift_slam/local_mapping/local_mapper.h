@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "lift_slam/local_mapping/local_mapper_options.h"
-#include "lift_slam/optimization/map_bundle.h"
 #include "lift_slam/map/map.h"
+#include "lift_slam/optimization/map_bundle.h"
 
 namespace lift_slam {
 

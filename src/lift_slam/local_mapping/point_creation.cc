@@ -43,8 +43,7 @@ class PairTriangulator {
   std::optional<Eigen::Vector3d> Triangulate(const FeatureMatch& match) const {
     const Eigen::Vector3d ray_a = view_.pinhole.Unproject(a_.features->pixel(match.a));
     const Eigen::Vector3d ray_b = view_.pinhole.Unproject(b_.features->pixel(match.b));
-    const double cosine =
-        (b_from_a_.rotation * ray_a).dot(ray_b) / (ray_a.norm() * ray_b.norm());
+    const double cosine = (b_from_a_.rotation * ray_a).dot(ray_b) / (ray_a.norm() * ray_b.norm());
     if (cosine <= 0.0 || cosine >= max_cosine_) return std::nullopt;
     const auto in_a = TriangulatePoint(b_from_a_, ray_a.head<2>(), ray_b.head<2>());
     if (!in_a || !ReprojectsWell(*in_a, a_, match.a)) return std::nullopt;
@@ -95,8 +94,8 @@ std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOp
     const double baseline = (keyframe.Center() - other.Center()).norm();
     if (baseline < options.min_baseline_ratio * depth->median) continue;
     const PairTriangulator triangulator(map, keyframe, other, options);
-    for (const FeatureMatch& match : MatchAlongEpipolarLines(keyframe, other, depth->near,
-                                                             map.view(), options.epipolar)) {
+    for (const FeatureMatch& match :
+         MatchAlongEpipolarLines(keyframe, other, depth->near, map.view(), options.epipolar)) {
       const auto position = triangulator.Triangulate(match);
       if (!position) continue;
       const MapPointId point = map.AddPoint(*position, keyframe_id);

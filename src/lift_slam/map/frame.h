@@ -12,11 +12,11 @@ namespace lift_slam {
 
 // One image on its way through tracking.
 struct Frame {
-  std::int64_t frame_index = -1;   // in the source sequence
+  std::int64_t frame_index = -1;  // in the source sequence
   std::int64_t timestamp_ns = 0;
   std::shared_ptr<const FrameFeatures> features;
-  Rigid3d cam_from_world;                  // valid once tracked
-  std::vector<MapPointId> map_points;      // by feature; invalid id: no match
+  Rigid3d cam_from_world;              // valid once tracked
+  std::vector<MapPointId> map_points;  // by feature; invalid id: no match
 
   Frame() = default;
   Frame(std::int64_t index, std::int64_t time_ns, std::shared_ptr<const FrameFeatures> f)
@@ -40,7 +40,7 @@ struct KeyFrame {
   std::int64_t timestamp_ns = 0;
   std::shared_ptr<const FrameFeatures> features;
   Rigid3d cam_from_world;
-  std::vector<MapPointId> map_points;   // by feature; invalid id: none
+  std::vector<MapPointId> map_points;  // by feature; invalid id: none
 
   Eigen::Vector3d Center() const { return cam_from_world.TargetOriginInSource(); }
 };

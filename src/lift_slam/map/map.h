@@ -76,8 +76,8 @@ class Map {
   void ShareWithObservers(const MapPoint& point, KeyFrameId keyframe, int change);
 
   std::shared_ptr<const ViewModel> view_;
-  std::vector<std::unique_ptr<KeyFrame>> keyframes_;  // by id; null: erased
-  std::vector<std::unique_ptr<MapPoint>> points_;     // by id; null: erased
+  std::vector<std::unique_ptr<KeyFrame>> keyframes_;   // by id; null: erased
+  std::vector<std::unique_ptr<MapPoint>> points_;      // by id; null: erased
   std::vector<std::optional<Reference>> replaced_by_;  // by keyframe id, for erased ones
   CovisibilityGraph covisibility_;
   KeyFrameId newest_keyframe_;

@@ -12,18 +12,18 @@ namespace lift_slam {
 struct MapPoint {
   struct Observation {
     KeyFrameId keyframe;
-    int feature = -1;   // index into the keyframe's features
+    int feature = -1;  // index into the keyframe's features
   };
 
   MapPointId id;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world, map units
   std::vector<Observation> observations;               // sorted by keyframe id
-  KeyFrameId created_by;         // the newest keyframe when the point was made
+  KeyFrameId created_by;  // the newest keyframe when the point was made
 
   // Appearance, kept up to date by UpdateAppearance.
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    // mean viewing direction, unit
-  double min_distance = 0.0, max_distance = 0.0;       // where its level is within the pyramid
-  std::vector<std::byte> descriptor;                   // the observation nearest to all others
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // mean viewing direction, unit
+  double min_distance = 0.0, max_distance = 0.0;     // where its level is within the pyramid
+  std::vector<std::byte> descriptor;                 // the observation nearest to all others
 
   // Counted over tracked frames: how often it should have been seen and how often it was.
   int num_visible = 1;

@@ -156,7 +156,7 @@ TEST_F(MapTest, TakenFeatureIsRefused) {
 }
 
 TEST_F(MapTest, DistanceRangeFollowsTheLevelOfTheFirstObservation) {
-  const MapPoint& point = map_.point(points_[3]);   // feature 3 is on level 3
+  const MapPoint& point = map_.point(points_[3]);  // feature 3 is on level 3
   const double distance = (point.position - map_.keyframe(keyframes_[0]).Center()).norm();
   EXPECT_NEAR(point.max_distance, distance * std::pow(1.2, 3), 1e-5);
   EXPECT_NEAR(point.min_distance, point.max_distance / std::pow(1.2, 7), 1e-5);

@@ -14,7 +14,7 @@ struct ViewModel {
   double min_x = 0.0, max_x = 0.0, min_y = 0.0, max_y = 0.0;  // undistorted pixels covered
   ScaleLevels levels;
   MatchingThresholds thresholds;
-  std::vector<float> scale;             // by level, >= 1
+  std::vector<float> scale;              // by level, >= 1
   std::vector<double> inverse_variance;  // by level, 1 / px^2; sigma grows with the scale
 
   bool Covers(const Eigen::Vector2d& pixel) const {

@@ -13,9 +13,9 @@ std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 // The part of an epipolar line in b on which a feature of a can lie.
 struct EpipolarSegment {
-  Eigen::Vector2f near, far;   // pixels at the least depth and at infinity, clipped to the image
-  Eigen::Vector2d normal;      // unit normal of the line
-  double offset = 0.0;         // normal . pixel + offset = signed distance
+  Eigen::Vector2f near, far;  // pixels at the least depth and at infinity, clipped to the image
+  Eigen::Vector2d normal;     // unit normal of the line
+  double offset = 0.0;        // normal . pixel + offset = signed distance
 
   double Distance(const Eigen::Vector2d& pixel) const {
     return std::abs(normal.dot(pixel) + offset);
@@ -44,8 +44,7 @@ class EpipolarGeometry {
     double depth = min_depth_;
     const double z = direction.z() * depth + b_from_a_.translation.z();
     if (z < kMinZ * depth) depth = -b_from_a_.translation.z() / direction.z() * 1.05;
-    const Eigen::Vector2d near =
-        view_.pinhole.Project(direction * depth + b_from_a_.translation);
+    const Eigen::Vector2d near = view_.pinhole.Project(direction * depth + b_from_a_.translation);
     const Eigen::Vector2d far = view_.pinhole.Project(direction);
     const Eigen::Vector2d along = near - far;
     if (along.norm() < 1e-6) return std::nullopt;
@@ -81,7 +80,7 @@ class EpipolarGeometry {
   Rigid3d b_from_a_;
   Eigen::Matrix3d rotation_;
   double min_depth_;
-  std::optional<Eigen::Vector2d> epipole_;   // in b, when before b's camera
+  std::optional<Eigen::Vector2d> epipole_;  // in b, when before b's camera
 };
 
 NearestTwo SearchSegment(const KeyFrame& a, int i, const KeyFrame& b,

@@ -8,7 +8,7 @@
 namespace lift_slam {
 
 struct EpipolarMatchOptions {
-  double max_epipolar_error_px = 2.0;   // on level 0; grows with the level's scale
+  double max_epipolar_error_px = 2.0;     // on level 0; grows with the level's scale
   double max_descriptor_ratio = 0.9;      // nearest over second nearest distance on the line
   double min_epipole_distance_px = 10.0;  // too near the epipole a point's depth is unknown
 };

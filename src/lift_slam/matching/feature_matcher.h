@@ -7,7 +7,7 @@
 namespace lift_slam {
 
 struct FeatureMatch {
-  int a = -1, b = -1;   // feature indices
+  int a = -1, b = -1;  // feature indices
 };
 
 // Matches for initialisation: features of `a` looked for in `b` within a window around

@@ -33,8 +33,8 @@ NearestTwo SearchWindow(const Frame& frame, DescriptorView descriptor, const Eig
       static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius_px, [&](int i) {
         const int level = features.level(i);
         if (level < min_level || level > max_level || frame.map_points[Index(i)].valid()) return;
-        nearest.Offer(i, DescriptorDistance(features.descriptor_kind(), descriptor,
-                                            features.descriptor(i)));
+        nearest.Offer(
+            i, DescriptorDistance(features.descriptor_kind(), descriptor, features.descriptor(i)));
       });
   return nearest;
 }
@@ -66,9 +66,9 @@ int MatchFromLastFrame(const Map& map, const Frame& last, float radius_px, Frame
     const Eigen::Vector2d pixel = view.pinhole.Project(in_cam);
     if (!view.Covers(pixel)) continue;
     const int level = last.features->level(i);
-    const NearestTwo nearest = SearchWindow(frame, point->descriptor, pixel,
-                                            radius_px * view.scale[Index(level)], level - 1,
-                                            level + 1);
+    const NearestTwo nearest =
+        SearchWindow(frame, point->descriptor, pixel, radius_px * view.scale[Index(level)],
+                     level - 1, level + 1);
     if (nearest.best < 0 || nearest.best_distance > view.thresholds.high) continue;
     frame.map_points[Index(nearest.best)] = point->id;
     rotation.Add(last.features->keypoint(i).angle_rad,
@@ -117,8 +117,8 @@ int MatchFromKeyFrame(const Map& map, const KeyFrame& keyframe, Frame& frame) {
     NearestTwo nearest;
     for (int j = 0; j < features.size(); ++j) {
       if (frame.map_points[Index(j)].valid()) continue;
-      nearest.Offer(j, DescriptorDistance(features.descriptor_kind(), descriptor,
-                                          features.descriptor(j)));
+      nearest.Offer(
+          j, DescriptorDistance(features.descriptor_kind(), descriptor, features.descriptor(j)));
     }
     if (nearest.best < 0 || nearest.best_distance > map.view().thresholds.low ||
         !nearest.IsDistinctive(kKeyFrameRatio)) {

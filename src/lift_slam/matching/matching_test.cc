@@ -43,12 +43,13 @@ class MatchingTest : public testing::Test {
       features.keypoints.push_back({pixel.x(), pixel.y(), 0.1F, 1.0F, 2});
       undistorted.push_back(pixel);
       std::array<std::uint64_t, 4> words = descriptors_[i];
-      words[static_cast<std::size_t>(random_.UniformInt(0, 3))] ^=
-          std::uint64_t{1} << random_.UniformInt(0, 63);
+      words[static_cast<std::size_t>(random_.UniformInt(0, 3))] ^= std::uint64_t{1}
+                                                                   << random_.UniformInt(0, 63);
       std::memcpy(features.descriptors.mutable_row(i).data(), words.data(), 32);
     }
-    Frame frame(index, index, std::make_shared<FrameFeatures>(std::move(features),
-                                                              std::move(undistorted), *view_));
+    Frame frame(
+        index, index,
+        std::make_shared<FrameFeatures>(std::move(features), std::move(undistorted), *view_));
     frame.cam_from_world = cam_from_world;
     return frame;
   }
@@ -99,8 +100,7 @@ TEST_F(MatchingTest, EpipolarMatchesAreRightWithinTheDepthRange) {
   EXPECT_GT(matches.size(), 100U);
   for (const FeatureMatch& match : matches) EXPECT_EQ(match.a, match.b);
   // With a least depth behind all points, only features in the cells of a segment come along.
-  const auto none =
-      MatchAlongEpipolarLines(map_->keyframe(a), map_->keyframe(b), 60.0, *view_, {});
+  const auto none = MatchAlongEpipolarLines(map_->keyframe(a), map_->keyframe(b), 60.0, *view_, {});
   EXPECT_LT(none.size(), kPoints / 4U);
 }
 

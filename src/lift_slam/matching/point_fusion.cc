@@ -31,8 +31,8 @@ int FindFeature(const Map& map, const KeyFrame& keyframe, const MapPoint& point,
 
 }  // namespace
 
-FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe_id,
-                        float radius_px, Map& map) {
+FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe_id, float radius_px,
+                        Map& map) {
   FusionCounts counts;
   for (const MapPointId id : points) {
     const MapPoint* point = map.FindPoint(id);
@@ -47,8 +47,7 @@ FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe_
       map.AddObservation(id, keyframe_id, feature);
       ++counts.observations_added;
     } else {
-      const bool keep_present =
-          map.point(present).num_observations() > point->num_observations();
+      const bool keep_present = map.point(present).num_observations() > point->num_observations();
       map.MergePoints(keep_present ? id : present, keep_present ? present : id);
       ++counts.points_merged;
     }

@@ -24,14 +24,12 @@ std::optional<PointProjection> ProjectPoint(const ViewModel& view, const MapPoin
       distance < point.min_distance / kDistanceSlack) {
     return std::nullopt;
   }
-  projection.viewing_cosine =
-      (cam_from_world.rotation * point.normal).dot(in_cam) / distance;
+  projection.viewing_cosine = (cam_from_world.rotation * point.normal).dot(in_cam) / distance;
   if (projection.viewing_cosine < kMinViewingCosine) return std::nullopt;
 
-  const double level =
-      std::ceil(std::log(point.max_distance / distance) / std::log(view.levels.scale_factor) - 1e-9);
-  projection.level =
-      std::clamp(static_cast<int>(level), 0, view.levels.num_levels - 1);
+  const double level = std::ceil(
+      std::log(point.max_distance / distance) / std::log(view.levels.scale_factor) - 1e-9);
+  projection.level = std::clamp(static_cast<int>(level), 0, view.levels.num_levels - 1);
   return projection;
 }
 

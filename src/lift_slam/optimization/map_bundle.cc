@@ -9,7 +9,7 @@ namespace {
 struct BundleIndex {
   std::vector<KeyFrameId> keyframes;
   std::vector<MapPointId> points;
-  std::vector<int> camera_of_keyframe;   // by keyframe id; -1: not in the problem
+  std::vector<int> camera_of_keyframe;  // by keyframe id; -1: not in the problem
 
   int CameraOf(KeyFrameId id) const {
     return id.index() < camera_of_keyframe.size() ? camera_of_keyframe[id.index()] : -1;

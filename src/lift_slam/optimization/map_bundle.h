@@ -10,7 +10,7 @@ namespace lift_slam {
 struct MapBundleReport {
   BundleReport solver;
   int free_keyframes = 0, fixed_keyframes = 0, points = 0, observations = 0;
-  int outliers = 0;   // observations taken out of the map
+  int outliers = 0;  // observations taken out of the map
 };
 
 // Optimises the poses of `free_keyframes` and all points they see; `fixed_keyframes` add their

@@ -41,14 +41,15 @@ PreparedFrame FramePreparer::Prepare(InputFrame input) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < features.keypoints.size(); ++i) {
       const Keypoint& keypoint = features.keypoints[i];
-      const auto pixel = undistortion_.Undistort(Eigen::Vector2f(keypoint.x, keypoint.y).cast<double>());
+      const auto pixel =
+          undistortion_.Undistort(Eigen::Vector2f(keypoint.x, keypoint.y).cast<double>());
       if (!pixel) continue;
       undistorted.push_back(pixel->cast<float>());
       rows.push_back(i);
     }
     if (rows.size() < features.keypoints.size()) features = KeepRows(features, rows);
-    prepared.features = std::make_shared<const FrameFeatures>(std::move(features),
-                                                              std::move(undistorted), *view_);
+    prepared.features =
+        std::make_shared<const FrameFeatures>(std::move(features), std::move(undistorted), *view_);
   }
   prepared.input = std::move(input);
   prepared.extract_ms = timer.ElapsedMs();

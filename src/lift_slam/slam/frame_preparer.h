@@ -14,16 +14,16 @@ namespace lift_slam {
 
 // One image of the input, or the reason why there is none.
 struct InputFrame {
-  std::int64_t frame_index = -1;   // in the source sequence
+  std::int64_t frame_index = -1;  // in the source sequence
   std::int64_t timestamp_ns = 0;
-  GrayImage image;                 // empty when refused
+  GrayImage image;  // empty when refused
   FrameRefusal refusal = FrameRefusal::kNone;
 };
 
 // An input frame with its features, ready for tracking.
 struct PreparedFrame {
   InputFrame input;
-  std::shared_ptr<const FrameFeatures> features;   // null when refused
+  std::shared_ptr<const FrameFeatures> features;  // null when refused
   double extract_ms = 0.0;
 };
 

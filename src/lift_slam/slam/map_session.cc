@@ -45,8 +45,7 @@ void MapSession::Backfill(std::vector<Frame> waiting, const Frame& current) {
     ++num_backfilled_;
     if (frame.frame_index > nearest) {
       nearest = frame.frame_index;
-      nearest_pose =
-          frame.cam_from_reference * map_->keyframe(frame.reference).cam_from_world;
+      nearest_pose = frame.cam_from_reference * map_->keyframe(frame.reference).cam_from_world;
     }
   }
   if (nearest == newest_waiting) {

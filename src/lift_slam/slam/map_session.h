@@ -31,9 +31,9 @@ class MapSession {
 
   struct Step {
     TrackingResult tracking;
-    std::optional<MappingReport> mapping;   // when the frame became a keyframe
-    Rigid3d world_from_cam;                 // valid when tracked
-    std::vector<int> tracked_features;      // features that agree with a map point
+    std::optional<MappingReport> mapping;  // when the frame became a keyframe
+    Rigid3d world_from_cam;                // valid when tracked
+    std::vector<int> tracked_features;     // features that agree with a map point
     double track_ms = 0.0, map_ms = 0.0;
   };
   Step Process(const PreparedFrame& prepared);
@@ -58,7 +58,7 @@ class MapSession {
   TrackerOptions tracker_options_;
   std::vector<FrameReference> frames_;
   std::optional<Rigid3d> initial_velocity_;
-  std::vector<std::uint8_t> gray_;   // by point id
+  std::vector<std::uint8_t> gray_;  // by point id
   int num_backfilled_ = 0;
 };
 

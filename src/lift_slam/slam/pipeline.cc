@@ -49,7 +49,7 @@ class PreparingThread {
   }
 
   BlockingQueue<PreparedFrame> queue_;
-  std::exception_ptr error_;   // written by the thread, read after it has been joined
+  std::exception_ptr error_;  // written by the thread, read after it has been joined
   std::thread thread_;
 };
 

@@ -16,25 +16,25 @@ namespace lift_slam {
 
 // What one frame of the input came to.
 struct FrameRecord {
-  std::int64_t frame_index = -1;   // in the source sequence
+  std::int64_t frame_index = -1;  // in the source sequence
   std::int64_t timestamp_ns = 0;
   TrackingState state = TrackingState::kInitializing;  // after the frame
   FrameRefusal refusal = FrameRefusal::kNone;
   std::optional<Rigid3d> world_from_cam;  // online pose, map units; nothing when refused
-  int map_index = -1;        // which map of the run; -1: none
+  int map_index = -1;                     // which map of the run; -1: none
   bool is_keyframe = false;
   int num_features = 0;
-  int num_matches = 0;       // map points matched before the final pose optimisation
-  int num_inliers = 0;       // map points that agree with the pose
+  int num_matches = 0;  // map points matched before the final pose optimisation
+  int num_inliers = 0;  // map points that agree with the pose
   double extract_ms = 0.0;
-  double track_ms = 0.0;     // without extraction
-  double map_ms = 0.0;       // local mapping after this frame; 0 when no keyframe
+  double track_ms = 0.0;  // without extraction
+  double map_ms = 0.0;    // local mapping after this frame; 0 when no keyframe
 };
 
 // A map point as handed out: position in its map's frame, and where it was seen.
 struct PointRecord {
   struct Observation {
-    int keyframe = 0;        // index into RunRecord::keyframes
+    int keyframe = 0;          // index into RunRecord::keyframes
     float x = 0.0F, y = 0.0F;  // undistorted pixel of the ideal pinhole
   };
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -45,15 +45,15 @@ struct PointRecord {
 };
 
 struct KeyFrameRecord {
-  TrajectoryPose pose;       // final
+  TrajectoryPose pose;  // final
   int map_index = 0;
 };
 
 // A frame picture with its tracked points, for the report.
 struct AnnotatedFrame {
   struct Mark {
-    float x = 0.0F, y = 0.0F;   // pixel in the image as it was read
-    bool tracked = false;       // agrees with a map point; else an unmatched feature
+    float x = 0.0F, y = 0.0F;  // pixel in the image as it was read
+    bool tracked = false;      // agrees with a map point; else an unmatched feature
   };
   std::int64_t frame_index = -1;
   GrayImage image;
@@ -67,23 +67,23 @@ using StageTimes = std::map<std::string, std::vector<double>>;
 // Everything a run leaves behind: data for trajectories, map, result.json and report.
 struct RunRecord {
   Camera camera;
-  std::vector<FrameRecord> frames;            // every input frame, in order
-  Trajectory final_trajectory;                // every frame; state kOk where it has a final pose
-  Trajectory online_trajectory;               // every frame; pose as given when it was processed
-  std::vector<KeyFrameRecord> keyframes;      // of all maps kept, by time
-  std::vector<PointRecord> points;            // of all maps kept
+  std::vector<FrameRecord> frames;        // every input frame, in order
+  Trajectory final_trajectory;            // every frame; state kOk where it has a final pose
+  Trajectory online_trajectory;           // every frame; pose as given when it was processed
+  std::vector<KeyFrameRecord> keyframes;  // of all maps kept, by time
+  std::vector<PointRecord> points;        // of all maps kept
   std::vector<AnnotatedFrame> annotated_frames;
   StageTimes stage_times_ms;
-  int num_maps = 0;                           // maps kept
-  int lost_events = 0;                        // tracking -> lost
+  int num_maps = 0;     // maps kept
+  int lost_events = 0;  // tracking -> lost
   int relocalisations = 0;
   int loops_closed = 0;
-  double wall_time_s = 0.0;                   // whole run without start-up
+  double wall_time_s = 0.0;  // whole run without start-up
   // How often each refusal happened, by FrameRefusal.
   std::array<int, static_cast<std::size_t>(FrameRefusal::kCount)> refusals{};
   // Why frames with a pose made no keyframe, why points were culled and so on: "stage.reason" -> n.
   std::map<std::string, int> counters;
-  bool interrupted = false;                   // ended by a signal before the input did
+  bool interrupted = false;  // ended by a signal before the input did
 };
 
 }  // namespace lift_slam

@@ -19,8 +19,8 @@ TrajectoryPose WithoutPose(const FrameRecord& frame) {
   TrajectoryPose pose;
   pose.frame_index = frame.frame_index;
   pose.timestamp_ns = frame.timestamp_ns;
-  pose.state = frame.state == TrackingState::kInitializing ? PoseState::kNotInitialized
-                                                           : PoseState::kLost;
+  pose.state =
+      frame.state == TrackingState::kInitializing ? PoseState::kNotInitialized : PoseState::kLost;
   return pose;
 }
 
@@ -37,7 +37,7 @@ void AddOnlineTrajectory(RunRecord& record) {
 
 void AddFinalTrajectory(const std::vector<std::unique_ptr<MapSession>>& sessions,
                         RunRecord& record) {
-  std::map<std::int64_t, Rigid3d> poses;   // by frame index; a later map does not replace a pose
+  std::map<std::int64_t, Rigid3d> poses;  // by frame index; a later map does not replace a pose
   for (const auto& session : sessions) {
     for (const auto& frame : session->frames()) {
       if (const auto pose = FinalPose(*session, frame)) poses.emplace(frame.frame_index, *pose);
@@ -95,7 +95,7 @@ void CompleteRunRecord(const std::vector<std::unique_ptr<MapSession>>& sessions,
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const Map& map = sessions[i]->map();
     const int map_index = static_cast<int>(i);
-    std::vector<int> keyframe_rows;   // by keyframe id
+    std::vector<int> keyframe_rows;  // by keyframe id
     AddKeyFrames(map, map_index, keyframe_rows, record);
     for (const MapPointId id : map.PointIds()) {
       PointRecord row = MakePointRecord(map, map.point(id), keyframe_rows);

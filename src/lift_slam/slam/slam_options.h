@@ -11,15 +11,15 @@
 namespace lift_slam {
 
 struct SlamOptions {
-  int seed = 0;                       // of everything random; set by the caller, not by Visit
-  double recovery_time_s = 1.0;       // a lost map is tried again so long, then a new one is begun
-  int min_keyframes_to_keep = 5;      // a map lost with fewer is thrown away ("reset")
+  int seed = 0;                   // of everything random; set by the caller, not by Visit
+  double recovery_time_s = 1.0;   // a lost map is tried again so long, then a new one is begun
+  int min_keyframes_to_keep = 5;  // a map lost with fewer is thrown away ("reset")
   bool final_bundle_adjustment = true;  // of every kept map, when the input has ended
   OrbOptions orb;
   MapInitializerOptions initializer;
   TrackerOptions tracker;
   LocalMapperOptions local_mapper;
-  BundleOptions local_bundle;         // also of the first map
+  BundleOptions local_bundle;  // also of the first map
   BundleOptions final_bundle = FinalBundleDefaults();
 
   void Visit(OptionVisitor& visitor) {

@@ -47,8 +47,8 @@ void SlamSystem::ProcessInitializing(const PreparedFrame& prepared, FrameRecord&
   record.num_matches = result.num_matches;
   std::vector<int> tracked;
   if (result.initial) {
-    session_ = std::make_unique<MapSession>(std::move(*result.initial), prepared.input.image,
-                                            options_);
+    session_ =
+        std::make_unique<MapSession>(std::move(*result.initial), prepared.input.image, options_);
     initializer_.reset();
     state_ = TrackingState::kTracking;
     last_tracked_ns_ = record.timestamp_ns;

@@ -42,8 +42,8 @@ class SlamSystem {
   SlamOptions options_;
   TrackingState state_ = TrackingState::kInitializing;
   std::unique_ptr<MapInitializer> initializer_;
-  std::unique_ptr<MapSession> session_;                 // the map tracked now; null: none
-  std::vector<std::unique_ptr<MapSession>> finished_;   // maps kept, by age
+  std::unique_ptr<MapSession> session_;                // the map tracked now; null: none
+  std::vector<std::unique_ptr<MapSession>> finished_;  // maps kept, by age
   std::int64_t last_tracked_ns_ = 0;
   AnnotatedFrameAlbum album_;
   RunRecord record_;

@@ -10,8 +10,8 @@ int OptimizeFramePose(const Map& map, const PoseOptimizationOptions& options, Fr
     if (point == nullptr) continue;
     const int feature = static_cast<int>(i);
     const auto level = static_cast<std::size_t>(frame.features->level(feature));
-    observations.push_back({frame.features->pixel(feature), point->position,
-                            map.view().inverse_variance[level]});
+    observations.push_back(
+        {frame.features->pixel(feature), point->position, map.view().inverse_variance[level]});
     features.push_back(i);
   }
   const PoseOptimizationResult result =

@@ -20,7 +20,8 @@ bool ShouldBecomeKeyFrame(const Map& map, int num_tracked, KeyFrameId reference,
   if (num_tracked < options.min_tracked_points) return false;
   if (frames_since_keyframe < options.min_frames_between) return false;
   if (frames_since_keyframe >= options.max_frames_between) return true;
-  return num_tracked < options.max_tracked_ratio * CountReliablePoints(map, reference, options.min_observations);
+  return num_tracked <
+         options.max_tracked_ratio * CountReliablePoints(map, reference, options.min_observations);
 }
 
 }  // namespace lift_slam

@@ -9,10 +9,10 @@ struct KeyFrameDecisionOptions {
   // A keyframe is due when fewer than this share of the reference keyframe's points are tracked:
   // the view has changed (ORB-SLAM sec. V-E).
   double max_tracked_ratio = 0.9;
-  int min_observations = 2;      // keyframes that must see a reference point for it to count
-  int max_frames_between = 30;   // frames; a keyframe at least this often
-  int min_frames_between = 1;    // frames; 1: each frame may be one
-  int min_tracked_points = 15;   // below this a frame is too weak to become a keyframe
+  int min_observations = 2;     // keyframes that must see a reference point for it to count
+  int max_frames_between = 30;  // frames; a keyframe at least this often
+  int min_frames_between = 1;   // frames; 1: each frame may be one
+  int min_tracked_points = 15;  // below this a frame is too weak to become a keyframe
 
   void Visit(OptionVisitor& visitor) {
     visitor.Field("max_tracked_ratio", max_tracked_ratio,

@@ -18,9 +18,8 @@ std::vector<CovisibilityGraph::Neighbor> KeyFramesSharingPoints(const Map& map,
   }
   std::vector<CovisibilityGraph::Neighbor> sorted;
   for (const auto& [keyframe, count] : shared) sorted.push_back({keyframe, count});
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
-    return a.shared_points > b.shared_points;
-  });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.shared_points > b.shared_points; });
   return sorted;
 }
 

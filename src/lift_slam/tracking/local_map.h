@@ -8,9 +8,9 @@ namespace lift_slam {
 
 // The part of the map around a frame (ORB-SLAM sec. V-D; paper sec. III-B "Tracking").
 struct LocalMap {
-  std::vector<KeyFrameId> keyframes;   // most shared points first, then their neighbours
-  std::vector<MapPointId> points;      // seen by them, ascending by id
-  KeyFrameId reference;                // shares most points with the frame; invalid: none
+  std::vector<KeyFrameId> keyframes;  // most shared points first, then their neighbours
+  std::vector<MapPointId> points;     // seen by them, ascending by id
+  KeyFrameId reference;               // shares most points with the frame; invalid: none
 };
 
 // Keyframes that see the frame's matched points (K1) and the best covisible ones of those (K2), at

@@ -57,10 +57,9 @@ MapInitializer::Result MapInitializer::Process(const Frame& frame) {
     result.refusal = FrameRefusal::kFirstFrame;
     return result;
   }
-  const auto radius =
-      static_cast<float>(options_.search_window_ratio * view_->pinhole.width);
-  const std::vector<FeatureMatch> matches = MatchWithinWindow(
-      *reference().features, *frame.features, expected_, radius, *view_);
+  const auto radius = static_cast<float>(options_.search_window_ratio * view_->pinhole.width);
+  const std::vector<FeatureMatch> matches =
+      MatchWithinWindow(*reference().features, *frame.features, expected_, radius, *view_);
   result.num_matches = static_cast<int>(matches.size());
   TwoViewReconstruction two_view = Reconstruct(frame, matches);
   result.refusal = RefusalOf(two_view.status);
@@ -93,17 +92,14 @@ void MapInitializer::SetReference(std::size_t waiting_index) {
   }
 }
 
-void MapInitializer::MoveReference() {
-  SetReference((reference_ + waiting_.size()) / 2);
-}
+void MapInitializer::MoveReference() { SetReference((reference_ + waiting_.size()) / 2); }
 
 TwoViewReconstruction MapInitializer::Reconstruct(const Frame& frame,
                                                   const std::vector<FeatureMatch>& matches) const {
   std::vector<TwoViewMatch> rays;
   for (const FeatureMatch& match : matches) {
     TwoViewMatch ray;
-    ray.normalized1 =
-        view_->pinhole.Unproject(reference().features->pixel(match.a)).head<2>();
+    ray.normalized1 = view_->pinhole.Unproject(reference().features->pixel(match.a)).head<2>();
     ray.normalized2 = view_->pinhole.Unproject(frame.features->pixel(match.b)).head<2>();
     const int level =
         std::max(reference().features->level(match.a), frame.features->level(match.b));

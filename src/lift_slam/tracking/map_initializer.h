@@ -37,9 +37,9 @@ struct MapInitializerOptions {
 
 // A map just begun from two views.
 struct InitialMap {
-  std::unique_ptr<Map> map;       // two keyframes: 0 is the reference, 1 the current frame
-  Frame current;                  // pose and matches valid
-  std::vector<Frame> waiting;     // earlier frames without pose, in order, the reference included
+  std::unique_ptr<Map> map;    // two keyframes: 0 is the reference, 1 the current frame
+  Frame current;               // pose and matches valid
+  std::vector<Frame> waiting;  // earlier frames without pose, in order, the reference included
   TwoViewReconstruction two_view;
 };
 
@@ -55,7 +55,7 @@ class MapInitializer {
   struct Result {
     FrameRefusal refusal = FrameRefusal::kNone;
     int num_matches = 0;
-    std::optional<InitialMap> initial;   // when nothing was refused
+    std::optional<InitialMap> initial;  // when nothing was refused
   };
   Result Process(const Frame& frame);
 
@@ -72,9 +72,9 @@ class MapInitializer {
   MapInitializerOptions options_;
   BundleOptions bundle_options_;
   std::uint64_t seed_;
-  std::vector<Frame> waiting_;                  // frames without pose, in order
-  std::size_t reference_ = 0;                   // index into waiting_
-  std::vector<Eigen::Vector2f> expected_;       // where the reference's features were seen last
+  std::vector<Frame> waiting_;             // frames without pose, in order
+  std::size_t reference_ = 0;              // index into waiting_
+  std::vector<Eigen::Vector2f> expected_;  // where the reference's features were seen last
   int poor_frames_ = 0;
 };
 

@@ -120,8 +120,7 @@ bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) con
     const MapPoint* point = map.FindPoint(frame.map_points[static_cast<std::size_t>(i)]);
     if (point == nullptr) continue;
     const auto level = static_cast<std::size_t>(frame.features->level(i));
-    matches.push_back({point->position,
-                       view.pinhole.Unproject(frame.features->pixel(i)).head<2>(),
+    matches.push_back({point->position, view.pinhole.Unproject(frame.features->pixel(i)).head<2>(),
                        1.0 / std::sqrt(view.inverse_variance[level])});
   }
   const auto pose = EstimateAbsolutePose(matches, 0.5 * (view.pinhole.fx + view.pinhole.fy),

@@ -11,11 +11,11 @@ namespace lift_slam {
 
 struct TrackingResult {
   FrameRefusal refusal = FrameRefusal::kNone;  // kNone: the frame has a pose
-  int num_matches = 0;         // before the final pose optimisation
+  int num_matches = 0;                         // before the final pose optimisation
   int num_inliers = 0;
-  KeyFrameId reference;        // the frame's pose is kept relative to it
+  KeyFrameId reference;  // the frame's pose is kept relative to it
   bool needs_keyframe = false;
-  bool recovered = false;      // found again without a prediction
+  bool recovered = false;  // found again without a prediction
 };
 
 // Image to pose within one map (paper sec. III-B "Tracking"): predict by constant velocity, match
@@ -47,7 +47,7 @@ class Tracker {
   std::uint64_t seed_;
   Frame last_;
   bool last_was_tracked_ = false;
-  std::optional<Rigid3d> velocity_;   // cam_from_last_cam
+  std::optional<Rigid3d> velocity_;  // cam_from_last_cam
   KeyFrameId reference_;
   int frames_since_keyframe_ = 0;
 };

@@ -8,12 +8,12 @@
 namespace lift_slam {
 
 struct TrackerOptions {
-  double search_radius_px = 15.0;      // around the predicted place, on level 0
-  int min_matches = 20;                // with the last frame; else the next, wider search
-  int min_inliers_first = 10;          // after the first pose optimisation
-  int min_inliers = 30;                // after the local map; fewer: lost
-  int max_local_keyframes = 60;        // of the local map
-  int recovery_keyframes = 5;          // recent keyframes matched without prediction when lost
+  double search_radius_px = 15.0;  // around the predicted place, on level 0
+  int min_matches = 20;            // with the last frame; else the next, wider search
+  int min_inliers_first = 10;      // after the first pose optimisation
+  int min_inliers = 30;            // after the local map; fewer: lost
+  int max_local_keyframes = 60;    // of the local map
+  int recovery_keyframes = 5;      // recent keyframes matched without prediction when lost
   PoseOptimizationOptions pose;
   AbsolutePoseOptions absolute_pose;
   KeyFrameDecisionOptions keyframe;

@@ -10,17 +10,17 @@ enum class TrackingState { kInitializing, kTracking, kLost };
 enum class FrameRefusal {
   kNone,
   // no map yet
-  kFirstFrame,           // nothing to compare with
-  kTooFewFeatures,       // dark, blurred or textureless image
-  kTooFewMatches,        // too few matches with the reference frame
-  kLowParallax,          // the camera has hardly moved
-  kPureRotation,         // matches agree with a rotation alone
-  kAmbiguousPlanar,      // two planar reconstructions fit equally well
-  kTooFewPoints,         // too few points in front of both cameras
-  kPoorReconstruction,   // bundle adjustment of the first map did not keep enough points
+  kFirstFrame,          // nothing to compare with
+  kTooFewFeatures,      // dark, blurred or textureless image
+  kTooFewMatches,       // too few matches with the reference frame
+  kLowParallax,         // the camera has hardly moved
+  kPureRotation,        // matches agree with a rotation alone
+  kAmbiguousPlanar,     // two planar reconstructions fit equally well
+  kTooFewPoints,        // too few points in front of both cameras
+  kPoorReconstruction,  // bundle adjustment of the first map did not keep enough points
   // a map exists
-  kTooFewTracked,        // too few map points matched in the image
-  kPoseRejected,         // too few matches agree with any pose
+  kTooFewTracked,  // too few map points matched in the image
+  kPoseRejected,   // too few matches agree with any pose
   // before the tracker
   kImageUnreadable,
   kImageSizeDiffers,

@@ -18,11 +18,11 @@ class CheckError : public std::logic_error {
 
 }  // namespace lift_slam
 
-// LIFT_SLAM_CHECK(condition, "format {}", values...): throws CheckError when the condition is false.
-#define LIFT_SLAM_CHECK(condition, ...)                                      \
-  do {                                                                       \
-    if (!(condition)) {                                                      \
-      ::lift_slam::ThrowCheckError(#condition, __FILE__, __LINE__,           \
-                                   ::fmt::format(__VA_ARGS__));              \
-    }                                                                        \
+// LIFT_SLAM_CHECK(condition, "format {}", values...): throws CheckError when the condition is
+// false.
+#define LIFT_SLAM_CHECK(condition, ...)                                                         \
+  do {                                                                                          \
+    if (!(condition)) {                                                                         \
+      ::lift_slam::ThrowCheckError(#condition, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__)); \
+    }                                                                                           \
   } while (false)

@@ -31,7 +31,7 @@ class OptionVisitor {
 
   // An enum class whose values count from 0 in the order of `names`.
   template <class Enum>
-    requires std::is_enum_v<Enum>
+  requires std::is_enum_v<Enum>
   void Field(std::string_view name, Enum& value, std::span<const std::string_view> names,
              std::string_view comment) {
     int index = static_cast<int>(value);
