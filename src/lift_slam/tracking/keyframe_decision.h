@@ -7,8 +7,9 @@ namespace lift_slam {
 
 struct KeyFrameDecisionOptions {
   // A keyframe is due when fewer than this share of the reference keyframe's points are tracked:
-  // the view has changed (ORB-SLAM sec. V-E).
-  double max_tracked_ratio = 0.9;
+  // the view has changed (ORB-SLAM sec. V-E, which uses 0.9 of the points seen three times; here
+  // all points count, so that a keyframe full of new points does not put off the next one).
+  double max_tracked_ratio = 0.7;
   int min_observations = 2;     // keyframes that must see a reference point for it to count
   int max_frames_between = 30;  // frames; a keyframe at least this often
   int min_frames_between = 1;   // frames; 1: each frame may be one
