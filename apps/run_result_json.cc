@@ -33,6 +33,15 @@ Json RefusalsJson(const RunRecord& run) {
   return json;
 }
 
+// By map: what self-calibration found the given calibration to be off by.
+Json CorrectionsJson(const RunRecord& run) {
+  Json json = Json::array();
+  for (const CalibrationCorrection& correction : run.corrections) {
+    json.push_back({{"focal_scale", correction.focal_scale}, {"k1", correction.k1}});
+  }
+  return json;
+}
+
 Json TimesJson(const std::vector<double>& times_ms) {
   const TimeSummary t = SummarizeTimes(times_ms);
   return {{"runs", t.runs},     {"median_ms", t.median_ms}, {"mean_ms", t.mean_ms},

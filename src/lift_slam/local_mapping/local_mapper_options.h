@@ -7,7 +7,7 @@ namespace lift_slam {
 
 struct LocalMapperOptions {
   int triangulation_neighbors = 10;   // covisible keyframes matched for new points
-  double min_parallax_deg = 1.0;      // of a new point
+  double min_parallax_deg = 1.5;      // of a new point
   double min_baseline_ratio = 0.01;   // baseline over median scene depth of a keyframe pair
   int fusion_neighbors = 10;          // covisible keyframes whose points are fused, and
   int fusion_second_neighbors = 5;    // of each of those as many again

@@ -1,5 +1,6 @@
 #include "lift_slam/local_mapping/point_creation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -88,8 +89,11 @@ std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOp
   const auto depth = MeasureDepth(map, keyframe_id);
   if (!depth) return created;
   const KeyFrame& keyframe = map.keyframe(keyframe_id);
-  for (const auto& neighbor :
-       map.covisibility().Neighbors(keyframe_id, 1, options.triangulation_neighbors)) {
+  auto neighbors = map.covisibility().Neighbors(keyframe_id, 1, options.triangulation_neighbors);
+  // The widest baselines first: a point made from them is surer than one made from a near pair,
+  // and its feature is then taken.
+  std::reverse(neighbors.begin(), neighbors.end());
+  for (const auto& neighbor : neighbors) {
     const KeyFrame& other = map.keyframe(neighbor.keyframe);
     const double baseline = (keyframe.Center() - other.Center()).norm();
     if (baseline < options.min_baseline_ratio * depth->median) continue;

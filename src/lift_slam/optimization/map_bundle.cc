@@ -57,15 +57,31 @@ void AddPointsAndObservations(const Map& map, BundleIndex& index, BundleProblem&
   }
 }
 
-// Takes the result over into the map; returns the number of observations removed.
-int WriteBack(const BundleIndex& index, const BundleProblem& problem, const BundleReport& report,
-              Map& map) {
+BundleProblem MakeProblem(const std::vector<KeyFrameId>& free_keyframes,
+                          const std::vector<KeyFrameId>& fixed_keyframes, const Map& map,
+                          BundleIndex& index) {
+  BundleProblem problem;
+  problem.intrinsics = map.view().pinhole;
+  AddCameras(free_keyframes, /*is_fixed=*/false, map, index, problem);
+  AddCameras(fixed_keyframes, /*is_fixed=*/true, map, index, problem);
+  index.points = PointsSeenBy(free_keyframes, map);
+  AddPointsAndObservations(map, index, problem);
+  return problem;
+}
+
+void WritePosesAndPoints(const BundleIndex& index, const BundleProblem& problem, Map& map) {
   for (std::size_t i = 0; i < index.keyframes.size(); ++i) {
     if (!problem.is_camera_fixed[i]) map.SetPose(index.keyframes[i], problem.cams_from_world[i]);
   }
   for (std::size_t i = 0; i < index.points.size(); ++i) {
     map.point(index.points[i]).position = problem.points[i];
   }
+}
+
+// Takes the result over into the map; returns the number of observations removed.
+int WriteBack(const BundleIndex& index, const BundleProblem& problem, const BundleReport& report,
+              Map& map) {
+  WritePosesAndPoints(index, problem, map);
   int outliers = 0;
   for (std::size_t k = 0; k < problem.observations.size(); ++k) {
     if (report.is_inlier[k]) continue;
@@ -89,13 +105,7 @@ MapBundleReport AdjustBundle(const std::vector<KeyFrameId>& free_keyframes,
                              const std::vector<KeyFrameId>& fixed_keyframes,
                              const BundleOptions& options, Map& map) {
   BundleIndex index;
-  BundleProblem problem;
-  problem.intrinsics = map.view().pinhole;
-  AddCameras(free_keyframes, /*is_fixed=*/false, map, index, problem);
-  AddCameras(fixed_keyframes, /*is_fixed=*/true, map, index, problem);
-  index.points = PointsSeenBy(free_keyframes, map);
-  AddPointsAndObservations(map, index, problem);
-
+  BundleProblem problem = MakeProblem(free_keyframes, fixed_keyframes, map, index);
   MapBundleReport report;
   report.solver = SolveBundle(problem, options);
   report.free_keyframes = static_cast<int>(free_keyframes.size());
@@ -108,6 +118,16 @@ MapBundleReport AdjustBundle(const std::vector<KeyFrameId>& free_keyframes,
 
 MapBundleReport AdjustWholeMap(const BundleOptions& options, Map& map) {
   return AdjustBundle(map.KeyFrameIds(), {}, options, map);
+}
+
+SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Map& map) {
+  SelfCalibrationReport report;
+  if (!options.enabled || map.num_keyframes() < options.min_keyframes) return report;
+  BundleIndex index;
+  BundleProblem problem = MakeProblem(map.KeyFrameIds(), {}, map, index);
+  report = SelfCalibrate(problem, options);
+  if (report.usable) WritePosesAndPoints(index, problem, map);
+  return report;
 }
 
 }  // namespace lift_slam

@@ -4,6 +4,7 @@
 
 #include "lift_slam/map/map.h"
 #include "lift_slam/optimization/bundle_adjustment.h"
+#include "lift_slam/optimization/self_calibration.h"
 
 namespace lift_slam {
 
@@ -22,5 +23,9 @@ MapBundleReport AdjustBundle(const std::vector<KeyFrameId>& free_keyframes,
 // All keyframes and points; the first keyframe and, so that the scale cannot drift, no other is
 // held fixed.
 MapBundleReport AdjustWholeMap(const BundleOptions& options, Map& map);
+
+// All keyframes and points together with a correction of the calibration. The features' pixels in
+// the map stay as measured: whoever projects afterwards applies the correction.
+SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Map& map);
 
 }  // namespace lift_slam

@@ -86,6 +86,11 @@ MappingReport MapSession::InsertKeyFrame(Frame& frame, const GrayImage& image) {
   return report;
 }
 
+void MapSession::SelfCalibrate(const SelfCalibrationOptions& options) {
+  const SelfCalibrationReport report = SelfCalibrateMap(options, *map_);
+  if (report.usable) correction_ = report.correction;
+}
+
 void MapSession::RememberGray(KeyFrameId keyframe_id, const GrayImage& image) {
   const KeyFrame& keyframe = map_->keyframe(keyframe_id);
   for (int i = 0; i < keyframe.features->size(); ++i) {

@@ -41,6 +41,9 @@ class MapSession {
   const Map& map() const { return *map_; }
   Map& mutable_map() { return *map_; }
   const std::vector<FrameReference>& frames() const { return frames_; }
+  // Corrects the calibration together with the map; the correction is kept.
+  void SelfCalibrate(const SelfCalibrationOptions& options);
+  const CalibrationCorrection& correction() const { return correction_; }
   int num_backfilled() const { return num_backfilled_; }
   // Grey value of the pixel a point was made from.
   std::uint8_t GrayOf(MapPointId id) const {
@@ -60,6 +63,7 @@ class MapSession {
   std::optional<Rigid3d> initial_velocity_;
   std::vector<std::uint8_t> gray_;  // by point id
   int num_backfilled_ = 0;
+  CalibrationCorrection correction_;
 };
 
 }  // namespace lift_slam

@@ -10,6 +10,7 @@
 #include "lift_slam/camera/camera.h"
 #include "lift_slam/geometry/trajectory.h"
 #include "lift_slam/image/image.h"
+#include "lift_slam/optimization/self_calibration.h"
 #include "lift_slam/tracking/tracking_state.h"
 
 namespace lift_slam {
@@ -73,6 +74,8 @@ struct RunRecord {
   std::vector<KeyFrameRecord> keyframes;  // of all maps kept, by time
   std::vector<PointRecord> points;        // of all maps kept
   std::vector<AnnotatedFrame> annotated_frames;
+  // What self-calibration found the calibration to be off by, by map; identity: nothing done.
+  std::vector<CalibrationCorrection> corrections;
   StageTimes stage_times_ms;
   int num_maps = 0;     // maps kept
   int lost_events = 0;  // tracking -> lost

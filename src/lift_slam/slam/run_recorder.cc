@@ -68,14 +68,16 @@ void AddKeyFrames(const Map& map, int map_index, std::vector<int>& keyframe_rows
   }
 }
 
-PointRecord MakePointRecord(const Map& map, const MapPoint& point,
+PointRecord MakePointRecord(const MapSession& session, const MapPoint& point,
                             const std::vector<int>& keyframe_rows) {
+  const Map& map = session.map();
   PointRecord row;
   row.position = point.position;
   double error = 0.0;
   for (const auto& observation : point.observations) {
     const KeyFrame& keyframe = map.keyframe(observation.keyframe);
-    const Eigen::Vector2d pixel = keyframe.features->pixel(observation.feature);
+    const Eigen::Vector2d pixel = session.correction().ToIdeal(
+        map.view().pinhole, keyframe.features->pixel(observation.feature));
     error += (map.view().pinhole.Project(keyframe.cam_from_world * point.position) - pixel).norm();
     row.observations.push_back({keyframe_rows[observation.keyframe.index()],
                                 static_cast<float>(pixel.x()), static_cast<float>(pixel.y())});
@@ -98,7 +100,7 @@ void CompleteRunRecord(const std::vector<std::unique_ptr<MapSession>>& sessions,
     std::vector<int> keyframe_rows;  // by keyframe id
     AddKeyFrames(map, map_index, keyframe_rows, record);
     for (const MapPointId id : map.PointIds()) {
-      PointRecord row = MakePointRecord(map, map.point(id), keyframe_rows);
+      PointRecord row = MakePointRecord(*sessions[i], map.point(id), keyframe_rows);
       row.map_index = map_index;
       row.gray = sessions[i]->GrayOf(id);
       record.points.push_back(std::move(row));

@@ -21,6 +21,7 @@ struct SlamOptions {
   LocalMapperOptions local_mapper;
   BundleOptions local_bundle;  // also of the first map
   BundleOptions final_bundle = FinalBundleDefaults();
+  SelfCalibrationOptions self_calibration;   // after the final bundle adjustment
 
   void Visit(OptionVisitor& visitor) {
     visitor.Field("recovery_time_s", recovery_time_s,
@@ -35,6 +36,8 @@ struct SlamOptions {
     visitor.Group("local_mapper", local_mapper, "keyframe to map");
     visitor.Group("local_bundle", local_bundle, "local bundle adjustment");
     visitor.Group("final_bundle", final_bundle, "bundle adjustment of whole maps at the end");
+    visitor.Group("self_calibration", self_calibration,
+                  "correction of the given calibration, with the final bundle adjustment");
   }
 
   static BundleOptions FinalBundleDefaults();

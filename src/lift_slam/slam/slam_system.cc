@@ -132,6 +132,9 @@ void SlamSystem::AdjustFinalMaps() {
     const Timer timer;
     AdjustWholeMap(options_.final_bundle, session->mutable_map());
     record_.stage_times_ms["final_bundle"].push_back(timer.ElapsedMs());
+    const Timer calibration_timer;
+    session->SelfCalibrate(options_.self_calibration);
+    record_.stage_times_ms["self_calibration"].push_back(calibration_timer.ElapsedMs());
   }
 }
 

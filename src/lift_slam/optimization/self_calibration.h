@@ -1,0 +1,54 @@
+#pragma once
+
+#include "lift_slam/camera/pinhole.h"
+#include "lift_slam/optimization/bundle_adjustment.h"
+#include "lift_slam/util/options.h"
+
+namespace lift_slam {
+
+// What a given calibration is off by: a point that the ideal pinhole sees at normalised (x, y) is
+// measured at focal_scale * (1 + k1 (x^2 + y^2)) * (x, y).
+struct CalibrationCorrection {
+  double focal_scale = 1.0;
+  double k1 = 0.0;
+
+  bool IsIdentity() const { return focal_scale == 1.0 && k1 == 0.0; }
+  // The pixel an ideal pinhole would have measured, from the (undistorted) pixel that was.
+  Eigen::Vector2d ToIdeal(const PinholeIntrinsics& intrinsics, const Eigen::Vector2d& pixel) const;
+};
+
+struct SelfCalibrationOptions {
+  bool enabled = true;
+  // How far a calibration is usually off, as standard deviations of a prior around "not at all":
+  // KITTI's residual distortion (Cvisic et al., 2021) is of this size.
+  double focal_scale_sigma = 0.01;
+  double k1_sigma = 0.01;
+  int min_keyframes = 20;         // fewer say too little
+  int max_iterations = 30;
+  double function_tolerance = 1e-6;
+
+  void Visit(OptionVisitor& visitor) {
+    visitor.Field("enabled", enabled, "correct the calibration when the input has ended");
+    visitor.Field("focal_scale_sigma", focal_scale_sigma,
+                  "prior standard deviation of the focal length, as a ratio");
+    visitor.Field("k1_sigma", k1_sigma, "prior standard deviation of the radial distortion k1");
+    visitor.Field("min_keyframes", min_keyframes, "keyframes a map needs for it");
+    visitor.Field("max_iterations", max_iterations, "iterations of the solver at most");
+    visitor.Field("function_tolerance", function_tolerance,
+                  "relative change of the cost that ends the solver");
+  }
+};
+
+struct SelfCalibrationReport {
+  bool usable = false;
+  CalibrationCorrection correction;
+  double initial_cost = 0.0, final_cost = 0.0;
+  int iterations = 0;
+};
+
+// Bundle adjustment of poses, points and the calibration's correction together, with a Huber loss
+// and a prior on the correction. Poses and points of `problem` are moved, its pixels become those
+// of the ideal pinhole. When not usable, `problem` is unchanged and the correction is none.
+SelfCalibrationReport SelfCalibrate(BundleProblem& problem, const SelfCalibrationOptions& options);
+
+}  // namespace lift_slam
