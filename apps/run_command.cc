@@ -73,6 +73,13 @@ FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
                        {"source", arguments.sequence.source},
                        {"calibration", info.camera->source}};
   if (info.ground_truth) finished.settings.emplace_back("ground truth", info.ground_truth->source);
+  for (std::size_t i = 0; i < record.corrections.size(); ++i) {
+    const CalibrationCorrection& correction = record.corrections[i];
+    if (correction.IsIdentity()) continue;
+    finished.settings.emplace_back(
+        fmt::format("self-calibration of map {}", i + 1),
+        fmt::format("focal length x {:.4f}, k1 {:+.4f}", correction.focal_scale, correction.k1));
+  }
   finished.warnings = info.warnings;
   return finished;
 }

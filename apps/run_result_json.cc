@@ -88,6 +88,7 @@ std::string RunResultJson(const FinishedRun& finished) {
   json["states"] = StatesJson(run);
   json["refusals"] = RefusalsJson(run);
   json["counters"] = run.counters;
+  json["calibration_corrections"] = CorrectionsJson(run);
   json["timing"] = TimingJson(run);
   json["memory"] = {{"peak_bytes", finished.provenance.peak_memory_bytes}};
   json["interrupted"] = run.interrupted;
