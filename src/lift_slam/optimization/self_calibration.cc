@@ -27,17 +27,15 @@ class CorrectedReprojection {
   bool operator()(const T* rotation, const T* translation, const T* point, const T* correction,
                   T* residual) const {
     using Vector3 = Eigen::Matrix<T, 3, 1>;
-    const Vector3 in_cam = Eigen::Map<const Eigen::Quaternion<T>>(rotation) *
-                               Eigen::Map<const Vector3>(point) +
-                           Eigen::Map<const Vector3>(translation);
+    const Vector3 in_cam =
+        Eigen::Map<const Eigen::Quaternion<T>>(rotation) * Eigen::Map<const Vector3>(point) +
+        Eigen::Map<const Vector3>(translation);
     if (!(in_cam.z() > T(kMinDepth))) return false;
     const T x = in_cam.x() / in_cam.z(), y = in_cam.y() / in_cam.z();
     const T scale = correction[0] * (T(1.0) + correction[1] * (x * x + y * y));
     const double weight = std::sqrt(observation_.inverse_variance);
-    residual[0] =
-        weight * (intrinsics_.fx * scale * x + intrinsics_.cx - observation_.pixel.x());
-    residual[1] =
-        weight * (intrinsics_.fy * scale * y + intrinsics_.cy - observation_.pixel.y());
+    residual[0] = weight * (intrinsics_.fx * scale * x + intrinsics_.cx - observation_.pixel.x());
+    residual[1] = weight * (intrinsics_.fy * scale * y + intrinsics_.cy - observation_.pixel.y());
     return true;
   }
 
@@ -116,8 +114,7 @@ Eigen::Vector2d CalibrationCorrection::ToIdeal(const PinholeIntrinsics& intrinsi
   return {intrinsics.fx * ideal.x() + intrinsics.cx, intrinsics.fy * ideal.y() + intrinsics.cy};
 }
 
-SelfCalibrationReport SelfCalibrate(BundleProblem& problem,
-                                    const SelfCalibrationOptions& options) {
+SelfCalibrationReport SelfCalibrate(BundleProblem& problem, const SelfCalibrationOptions& options) {
   SelfCalibrationReport report;
   if (problem.observations.empty()) return report;
   Parameters parameters(problem);

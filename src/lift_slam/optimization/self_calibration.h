@@ -23,9 +23,9 @@ struct SelfCalibrationOptions {
   // KITTI's residual distortion (Cvisic et al., 2021) is of this size.
   double focal_scale_sigma = 0.01;
   double k1_sigma = 0.01;
-  int min_keyframes = 20;         // fewer say too little
+  int min_keyframes = 20;  // fewer say too little
   int max_iterations = 30;
-  double function_tolerance = 1e-6;
+  double function_tolerance = 1e-5;
 
   void Visit(OptionVisitor& visitor) {
     visitor.Field("enabled", enabled, "correct the calibration when the input has ended");

@@ -25,12 +25,10 @@ BundleProblem MakeProblem(const CalibrationCorrection& truth, double sigma_px, R
       const Eigen::Vector3d in_cam =
           problem.cams_from_world.back() * problem.points[static_cast<std::size_t>(i)];
       const Eigen::Vector2d ray = in_cam.head<2>() / in_cam.z();
-      const Eigen::Vector2d seen =
-          truth.focal_scale * (1.0 + truth.k1 * ray.squaredNorm()) * ray;
+      const Eigen::Vector2d seen = truth.focal_scale * (1.0 + truth.k1 * ray.squaredNorm()) * ray;
       const Eigen::Vector2d pixel = problem.intrinsics.Project({seen.x(), seen.y(), 1.0});
       if (pixel.x() < 0.0 || pixel.x() > 1240.0 || pixel.y() < 0.0 || pixel.y() > 375.0) continue;
-      problem.observations.push_back(
-          {k, i, pixel + RandomVector(random, sigma_px).head<2>(), 1.0});
+      problem.observations.push_back({k, i, pixel + RandomVector(random, sigma_px).head<2>(), 1.0});
     }
   }
   return problem;

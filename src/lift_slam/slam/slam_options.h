@@ -21,7 +21,7 @@ struct SlamOptions {
   LocalMapperOptions local_mapper;
   BundleOptions local_bundle;  // also of the first map
   BundleOptions final_bundle = FinalBundleDefaults();
-  SelfCalibrationOptions self_calibration;   // after the final bundle adjustment
+  SelfCalibrationOptions self_calibration;  // after the final bundle adjustment
 
   void Visit(OptionVisitor& visitor) {
     visitor.Field("recovery_time_s", recovery_time_s,

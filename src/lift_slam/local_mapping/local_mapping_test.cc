@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+
+#include "lift_slam/local_mapping/culling.h"
+#include "lift_slam/local_mapping/fusion.h"
+#include "lift_slam/local_mapping/local_mapper.h"
+#include "lift_slam/local_mapping/point_creation.h"
+#include "lift_slam/testing/synthetic_frames.h"
+
+namespace lift_slam {
+namespace {
+
+constexpr int kPoints = 200;
+
+Rigid3d CameraAt(double x) { return {Eigen::Quaterniond::Identity(), {-x, 0.0, -0.02}}; }
+
+class LocalMappingTest : public testing::Test {
+ protected:
+  // Two keyframes that see the first half of the points in the map, so that they are covisible.
+  void FillHalf() {
+    first_ = map_.AddKeyFrame(scene_.MakeFrame(0, CameraAt(0.0)));
+    second_ = map_.AddKeyFrame(scene_.MakeFrame(1, CameraAt(0.4)));
+    for (int i = 0; i < kPoints / 2; ++i) {
+      const MapPointId id = map_.AddPoint(scene_.points()[static_cast<std::size_t>(i)], second_);
+      map_.AddObservation(id, first_, i);
+      map_.AddObservation(id, second_, i);
+      map_.UpdateAppearance(id);
+    }
+  }
+
+  SyntheticFrames scene_{kPoints, 3.0, 8.0, 31};
+  Map map_{scene_.view()};
+  LocalMapperOptions options_;
+  KeyFrameId first_, second_;
+};
+
+TEST_F(LocalMappingTest, NewPointsLieWhereTheyAre) {
+  FillHalf();
+  const std::vector<MapPointId> created = CreatePoints(second_, options_, map_);
+  EXPECT_GT(created.size(), 80U);
+  for (const MapPointId id : created) {
+    const auto feature = static_cast<std::size_t>(map_.point(id).FeatureIn(second_));
+    EXPECT_GE(feature, kPoints / 2U);
+    EXPECT_LT((map_.point(id).position - scene_.points()[feature]).norm(), 0.02);
+  }
+}
+
+TEST_F(LocalMappingTest, NoPointsFromABaselineTooShort) {
+  FillHalf();
+  map_.SetPose(second_, CameraAt(0.001));
+  EXPECT_TRUE(CreatePoints(second_, options_, map_).empty());
+}
+
+TEST_F(LocalMappingTest, RecentPointsRarelyFoundAreCulled) {
+  FillHalf();
+  std::vector<MapPointId> recent = map_.PointIds();
+  map_.point(recent[0]).num_visible = 20;
+  map_.point(recent[0]).num_found = 2;
+  const MapPointId rare = recent[0];
+  EXPECT_EQ(CullRecentPoints(options_, map_, recent), 1);
+  EXPECT_EQ(map_.FindPoint(rare), nullptr);
+  EXPECT_EQ(recent.size(), kPoints / 2U - 1U);
+}
+
+TEST_F(LocalMappingTest, PointsSeenTwiceAreCulledOnceTwoMoreKeyFramesHaveCome) {
+  FillHalf();
+  std::vector<MapPointId> recent = map_.PointIds();
+  map_.AddKeyFrame(scene_.MakeFrame(2, CameraAt(0.5)));
+  EXPECT_EQ(CullRecentPoints(options_, map_, recent), 0);
+  map_.AddKeyFrame(scene_.MakeFrame(3, CameraAt(0.6)));
+  EXPECT_EQ(CullRecentPoints(options_, map_, recent), kPoints / 2);
+  EXPECT_TRUE(recent.empty());
+}
+
+TEST_F(LocalMappingTest, RedundantKeyFramesAreCulledButNotTheFirst) {
+  scene_.FillMap({CameraAt(0.0), CameraAt(0.1), CameraAt(0.2), CameraAt(0.3), CameraAt(0.4)}, map_);
+  const int erased = CullKeyFrames(map_.newest_keyframe(), options_, map_);
+  EXPECT_GE(erased, 1);
+  EXPECT_NE(map_.FindKeyFrame(KeyFrameId(0)), nullptr);
+  EXPECT_NE(map_.FindKeyFrame(map_.newest_keyframe()), nullptr);
+  EXPECT_EQ(map_.num_keyframes(), 5 - erased);
+  EXPECT_EQ(map_.num_points(), kPoints);
+}
+
+TEST_F(LocalMappingTest, KeyFramesWithPointsOfTheirOwnStay) {
+  FillHalf();
+  map_.AddKeyFrame(scene_.MakeFrame(2, CameraAt(0.5)));
+  EXPECT_EQ(CullKeyFrames(second_, options_, map_), 0);
+}
+
+TEST_F(LocalMappingTest, FusionConnectsAKeyFrameWithWhatItSees) {
+  FillHalf();
+  Frame third = scene_.MakeFrame(2, CameraAt(0.5));
+  for (std::size_t i = 0; i < 30; ++i) third.map_points[i] = map_.keyframe(first_).map_points[i];
+  const KeyFrameId id = map_.AddKeyFrame(third);
+  const FusionCounts counts = FuseWithNeighbors(id, options_, map_);
+  EXPECT_GT(counts.observations_added, 50);
+  EXPECT_GT(map_.covisibility().SharedPoints(id, first_), 80);
+}
+
+TEST_F(LocalMappingTest, OneStepRepairsADisturbedPoseAndMakesPoints) {
+  FillHalf();
+  Frame third = scene_.MakeFrame(2, CameraAt(0.7), 0.2);
+  for (std::size_t i = 0; i < kPoints / 2; ++i) {
+    third.map_points[i] = map_.keyframe(first_).map_points[i];
+  }
+  third.cam_from_world = CameraAt(0.73);
+  const KeyFrameId id = map_.AddKeyFrame(third);
+  LocalMapper mapper(options_, {});
+  const MappingReport report = mapper.Process(id, map_);
+  EXPECT_TRUE(report.bundle.solver.usable) << report.bundle.solver.message;
+  EXPECT_GT(report.points_created, 50);
+  // The scale is free to move a little: compare the ratio of the baselines.
+  const double first_step =
+      (map_.keyframe(second_).Center() - map_.keyframe(first_).Center()).norm();
+  const double second_step = (map_.keyframe(id).Center() - map_.keyframe(second_).Center()).norm();
+  EXPECT_NEAR(second_step / first_step, 0.3 / 0.4, 0.02);
+}
+
+}  // namespace
+}  // namespace lift_slam
