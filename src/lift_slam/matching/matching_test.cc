@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <numbers>
 
 #include "lift_slam/matching/epipolar_matcher.h"
@@ -10,62 +9,27 @@
 #include "lift_slam/matching/point_fusion.h"
 #include "lift_slam/matching/point_projection.h"
 #include "lift_slam/matching/rotation_consistency.h"
-#include "lift_slam/util/random.h"
+#include "lift_slam/testing/synthetic_frames.h"
 
 namespace lift_slam {
 namespace {
 
 constexpr int kPoints = 120;
 
-// Points before two cameras a step apart; feature i of each frame sees point i, and its descriptor
-// is a random one of its own, with a few bits flipped from frame to frame.
+// Points before two cameras a step apart; feature i of each frame sees point i.
 class MatchingTest : public testing::Test {
  protected:
-  MatchingTest() {
-    const PinholeIntrinsics pinhole{400.0, 400.0, 320.0, 240.0, 640, 480};
-    view_ = std::make_shared<ViewModel>(
-        MakeViewModel(pinhole, {0.0, 640.0, 0.0, 480.0}, {8, 1.2}, {50.0F, 100.0F}));
-    for (int i = 0; i < kPoints; ++i) {
-      const double z = random_.Uniform(3.0, 8.0);
-      points_.push_back({z * random_.Uniform(-0.5, 0.5), z * random_.Uniform(-0.4, 0.4), z});
-      descriptors_.push_back({random_.Bits(), random_.Bits(), random_.Bits(), random_.Bits()});
-    }
-    map_ = std::make_unique<Map>(view_);
-  }
-
   Frame MakeFrame(std::int64_t index, const Rigid3d& cam_from_world) {
-    FeatureSet features;
-    features.descriptors = Descriptors({"orb", DescriptorMetric::kHamming, 256}, kPoints);
-    std::vector<Eigen::Vector2f> undistorted;
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      const Eigen::Vector2f pixel =
-          view_->pinhole.Project(cam_from_world * points_[i]).cast<float>();
-      features.keypoints.push_back({pixel.x(), pixel.y(), 0.1F, 1.0F, 2});
-      undistorted.push_back(pixel);
-      std::array<std::uint64_t, 4> words = descriptors_[i];
-      words[static_cast<std::size_t>(random_.UniformInt(0, 3))] ^= std::uint64_t{1}
-                                                                   << random_.UniformInt(0, 63);
-      std::memcpy(features.descriptors.mutable_row(i).data(), words.data(), 32);
-    }
-    Frame frame(
-        index, index,
-        std::make_shared<FrameFeatures>(std::move(features), std::move(undistorted), *view_));
-    frame.cam_from_world = cam_from_world;
-    return frame;
+    return scene_.MakeFrame(index, cam_from_world);
   }
 
   static Rigid3d Step(double x) { return {Eigen::Quaterniond::Identity(), {-x, 0.0, -0.05}}; }
 
   // Two keyframes that see all points.
   void FillMap() {
-    first_ = map_->AddKeyFrame(MakeFrame(0, Rigid3d()));
-    second_ = map_->AddKeyFrame(MakeFrame(1, Step(0.3)));
-    for (int i = 0; i < kPoints; ++i) {
-      ids_.push_back(map_->AddPoint(points_[static_cast<std::size_t>(i)], second_));
-      map_->AddObservation(ids_.back(), first_, i);
-      map_->AddObservation(ids_.back(), second_, i);
-      map_->UpdateAppearance(ids_.back());
-    }
+    ids_ = scene_.FillMap({Rigid3d(), Step(0.3)}, *map_);
+    first_ = map_->KeyFrameIds().front();
+    second_ = map_->newest_keyframe();
   }
 
   int CountRight(const Frame& frame) const {
@@ -74,11 +38,10 @@ class MatchingTest : public testing::Test {
     return right;
   }
 
-  Random random_{11};
-  std::shared_ptr<const ViewModel> view_;
-  std::vector<Eigen::Vector3d> points_;
-  std::vector<std::array<std::uint64_t, 4>> descriptors_;
-  std::unique_ptr<Map> map_;
+  SyntheticFrames scene_{kPoints, 3.0, 8.0, 11};
+  std::shared_ptr<const ViewModel> view_ = scene_.view();
+  std::vector<Eigen::Vector3d> points_ = scene_.points();
+  std::unique_ptr<Map> map_ = std::make_unique<Map>(view_);
   KeyFrameId first_, second_;
   std::vector<MapPointId> ids_;
 };
