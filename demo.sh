@@ -12,10 +12,12 @@ cmake --preset release >/dev/null
 cmake --build --preset release -j"$(nproc)" --target lift_slam
 
 program=build/release/lift_slam
-sequence=runs/demo/sequence
+data=runs/demo/kitti
+sequence=$data/sequences/00
 results=runs/demo/results
 echo "== Synthetic sequence ($sequence)"
-"$program" synthesize --output "$sequence"
+rm -rf "$data"
+"$program" synthesize --output "$data" --path street_drive --layout kitti
 echo "== SLAM ($results)"
 "$program" run "$sequence" --output "$results"
 echo

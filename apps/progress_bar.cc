@@ -38,6 +38,7 @@ std::string Clock(double seconds) {
 }
 
 std::string MapText(const Progress& progress) {
+  if (progress.keyframes == kNoMap) return progress.state;
   return fmt::format("{}, {} keyframes, {} points", progress.state, progress.keyframes,
                      progress.map_points);
 }

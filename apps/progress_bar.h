@@ -8,12 +8,14 @@
 
 namespace lift_slam {
 
+inline constexpr int kNoMap = -1;
+
 // How far a run is.
 struct Progress {
   std::int64_t frames_done = 0;
   std::optional<std::int64_t> frames_total;  // nothing for a live camera
   std::string state;                         // "tracking"
-  int keyframes = 0;
+  int keyframes = 0;                         // kNoMap: neither they nor the points are shown
   int map_points = 0;
 };
 

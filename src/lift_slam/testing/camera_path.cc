@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -81,6 +82,11 @@ std::string_view Name(SyntheticPath path) {
       return "room_loop";
   }
   return "unknown";
+}
+
+double PathDurationS(SyntheticPath path) {
+  return path == SyntheticPath::kStreetDrive ? kStreetLength / kStreetSpeed
+                                             : std::numeric_limits<double>::infinity();
 }
 
 Rigid3d WorldFromStreet(double distance) {

@@ -20,6 +20,9 @@ std::string_view Name(SyntheticPath path);
 // Pose at a time (seconds from 0 on).
 Rigid3d WorldFromCamOnPath(SyntheticPath path, double time_s);
 
+// How long a path goes on; infinite for those that repeat.
+double PathDurationS(SyntheticPath path);
+
 // The middle of the street after `distance` metres: world_from_street, whose z runs along it.
 Rigid3d WorldFromStreet(double distance);
 inline constexpr double kStreetLength = 400.0;

@@ -22,6 +22,8 @@ Rigid3d BodyFromCam() {
           {-0.0216, -0.0647, 0.0098}};
 }
 
+using ImageWritten = std::function<void(int)>;
+
 void CreateFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -53,7 +55,8 @@ std::string MatrixLine(const Rigid3d& pose) {
   return line;
 }
 
-WrittenSequence WriteKitti(const fs::path& root, const SyntheticSequence& sequence) {
+WrittenSequence WriteKitti(const fs::path& root, const SyntheticSequence& sequence,
+                           const ImageWritten& image_written) {
   const WrittenSequence written{root / "sequences" / "00", root / "poses" / "00.txt"};
   CreateFolder(written.folder / "image_0");
   CreateFolder(written.ground_truth.parent_path());
@@ -61,6 +64,7 @@ WrittenSequence WriteKitti(const fs::path& root, const SyntheticSequence& sequen
   std::string times, poses;
   for (int i = 0; i < sequence.size(); ++i) {
     WriteImage(written.folder / "image_0" / fmt::format("{:06d}.png", i), sequence.Render(i));
+    image_written(i + 1);
     times += fmt::format("{:.6e}\n", static_cast<double>(sequence.TimestampNs(i)) * 1e-9);
     poses += MatrixLine(first_from_world * sequence.WorldFromCam(i)) + "\n";
   }
@@ -92,7 +96,8 @@ std::string TumCameraYaml(const Camera& camera) {
       camera.frame_rate_hz);
 }
 
-WrittenSequence WriteTum(const fs::path& root, const SyntheticSequence& sequence) {
+WrittenSequence WriteTum(const fs::path& root, const SyntheticSequence& sequence,
+                         const ImageWritten& image_written) {
   CreateFolder(root / "rgb");
   std::string images = "# color images\n# timestamp filename\n";
   std::string poses = "# ground truth trajectory\n# timestamp tx ty tz qx qy qz qw\n";
@@ -101,6 +106,7 @@ WrittenSequence WriteTum(const fs::path& root, const SyntheticSequence& sequence
     const std::int64_t ns = sequence.TimestampNs(i);
     const std::string time = fmt::format("{}.{:09d}", ns / 1000000000, ns % 1000000000);
     WriteImage(root / "rgb" / (time + ".png"), sequence.Render(i));
+    image_written(i + 1);
     images += fmt::format("{0} rgb/{0}.png\n", time);
     const Rigid3d pose = sequence.WorldFromCam(i);
     const Eigen::Vector3d& t = pose.translation;
@@ -137,7 +143,8 @@ std::string EurocSensorYaml(const Camera& camera) {
       d.p2);
 }
 
-WrittenSequence WriteEuroc(const fs::path& root, const SyntheticSequence& sequence) {
+WrittenSequence WriteEuroc(const fs::path& root, const SyntheticSequence& sequence,
+                           const ImageWritten& image_written) {
   const fs::path cam0 = root / "mav0" / "cam0";
   const fs::path truth = root / "mav0" / "state_groundtruth_estimate0";
   const std::string sensor = EurocSensorYaml(sequence.camera());
@@ -150,6 +157,7 @@ WrittenSequence WriteEuroc(const fs::path& root, const SyntheticSequence& sequen
   for (int i = 0; i < sequence.size(); ++i) {
     const std::int64_t ns = kEurocStartNs + sequence.TimestampNs(i);
     WriteImage(cam0 / "data" / fmt::format("{}.png", ns), sequence.Render(i));
+    image_written(i + 1);
     images += fmt::format("{0},{0}.png\n", ns);
     const Rigid3d body = sequence.WorldFromCam(i) * Inverse(BodyFromCam());
     const Eigen::Vector3d& t = body.translation;
@@ -166,7 +174,9 @@ WrittenSequence WriteEuroc(const fs::path& root, const SyntheticSequence& sequen
 }  // namespace
 
 WrittenSequence WriteSyntheticSequence(const fs::path& root, SequenceLayout layout,
-                                       const SyntheticSequenceOptions& options) {
+                                       const SyntheticSequenceOptions& options,
+                                       const ImageWritten& image_written) {
+  const ImageWritten told = image_written ? image_written : ImageWritten([](int) {});
   const SyntheticSequence sequence(options);
   switch (layout) {
     case SequenceLayout::kKittiOdometry:
@@ -174,11 +184,11 @@ WrittenSequence WriteSyntheticSequence(const fs::path& root, SequenceLayout layo
         throw InputError(fmt::format("{}: the KITTI layout cannot hold the camera model {}",
                                      sequence.camera().source, sequence.camera().ModelName()));
       }
-      return WriteKitti(root, sequence);
+      return WriteKitti(root, sequence, told);
     case SequenceLayout::kTumRgbd:
-      return WriteTum(root, sequence);
+      return WriteTum(root, sequence, told);
     case SequenceLayout::kEuroc:
-      return WriteEuroc(root, sequence);
+      return WriteEuroc(root, sequence, told);
   }
   throw InputError("unknown sequence layout");
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 
 #include "lift_slam/camera/camera.h"
 #include "lift_slam/image/image.h"
@@ -61,8 +62,10 @@ struct WrittenSequence {
 //   TUM: poses of the camera in the world.
 //   EuRoC: poses of a body (IMU) 7 cm off the camera and turned by 90 degrees: T_BS in sensor.yaml;
 //   distortion none or radial-tangential without k3.
+// `image_written`, when given, hears of the number of images written so far.
 // Throws InputError when a file cannot be written or the layout cannot hold the camera's model.
 WrittenSequence WriteSyntheticSequence(const std::filesystem::path& root, SequenceLayout layout,
-                                       const SyntheticSequenceOptions& options);
+                                       const SyntheticSequenceOptions& options,
+                                       const std::function<void(int)>& image_written = {});
 
 }  // namespace lift_slam
