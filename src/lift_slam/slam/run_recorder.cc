@@ -15,23 +15,28 @@ std::optional<Rigid3d> FinalPose(const MapSession& session,
   return Inverse(cam_from_world);
 }
 
-TrajectoryPose WithoutPose(const FrameRecord& frame) {
-  TrajectoryPose pose;
-  pose.frame_index = frame.frame_index;
-  pose.timestamp_ns = frame.timestamp_ns;
-  pose.state =
-      frame.state == TrackingState::kInitializing ? PoseState::kNotInitialized : PoseState::kLost;
-  return pose;
+// All frames without poses: not initialised until the first map was begun, lost from then on, also
+// while a further map is being begun and where a map was thrown away.
+Trajectory WithoutPoses(const RunRecord& record) {
+  Trajectory trajectory;
+  bool was_begun = false;
+  for (const FrameRecord& frame : record.frames) {
+    was_begun = was_begun || frame.state != TrackingState::kInitializing;
+    TrajectoryPose pose;
+    pose.frame_index = frame.frame_index;
+    pose.timestamp_ns = frame.timestamp_ns;
+    pose.state = was_begun ? PoseState::kLost : PoseState::kNotInitialized;
+    trajectory.push_back(pose);
+  }
+  return trajectory;
 }
 
 void AddOnlineTrajectory(RunRecord& record) {
-  for (const FrameRecord& frame : record.frames) {
-    TrajectoryPose pose = WithoutPose(frame);
-    if (frame.world_from_cam) {
-      pose.world_from_cam = *frame.world_from_cam;
-      pose.state = PoseState::kOk;
-    }
-    record.online_trajectory.push_back(pose);
+  record.online_trajectory = WithoutPoses(record);
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    if (!record.frames[i].world_from_cam) continue;
+    record.online_trajectory[i].world_from_cam = *record.frames[i].world_from_cam;
+    record.online_trajectory[i].state = PoseState::kOk;
   }
 }
 
@@ -43,13 +48,12 @@ void AddFinalTrajectory(const std::vector<std::unique_ptr<MapSession>>& sessions
       if (const auto pose = FinalPose(*session, frame)) poses.emplace(frame.frame_index, *pose);
     }
   }
-  for (const FrameRecord& frame : record.frames) {
-    TrajectoryPose pose = WithoutPose(frame);
-    if (const auto found = poses.find(frame.frame_index); found != poses.end()) {
-      pose.world_from_cam = found->second;
-      pose.state = PoseState::kOk;
-    }
-    record.final_trajectory.push_back(pose);
+  record.final_trajectory = WithoutPoses(record);
+  for (TrajectoryPose& pose : record.final_trajectory) {
+    const auto found = poses.find(pose.frame_index);
+    if (found == poses.end()) continue;
+    pose.world_from_cam = found->second;
+    pose.state = PoseState::kOk;
   }
 }
 
