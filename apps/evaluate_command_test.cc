@@ -118,9 +118,7 @@ TEST_F(EvaluateCommand, EurocTruthIsMovedToTheCameraOrKeptInTheBody) {
   const Rigid3d body_from_cam(
       Eigen::Quaterniond(Eigen::AngleAxisd(std::acos(-1.0) / 2.0, Eigen::Vector3d::UnitZ())),
       Eigen::Vector3d(0.3, 0.0, 0.0));
-  Trajectory camera = test::RandomWalk(200, 3);
-  // Stamps near 0 would look like seconds.
-  for (TrajectoryPose& pose : camera) pose.timestamp_ns += 1403715529112143517;
+  const Trajectory camera = test::RandomWalk(200, 3);
   Write("truth.csv", CameraFromBodyTrajectory(camera, Inverse(body_from_cam)),
         TrajectoryFormat::kEurocCsv);
   Write("estimate.tum", camera, TrajectoryFormat::kTum);
@@ -133,6 +131,10 @@ TEST_F(EvaluateCommand, EurocTruthIsMovedToTheCameraOrKeptInTheBody) {
   std::vector<std::string> alone = files;
   alone.insert(alone.begin(), "evaluate");
   EXPECT_THAT(ErrorOf(alone), HasSubstr("--sensor-yaml"));
+  WriteTextAtomically(Path("bare.yaml"), "rate_hz: 20\n");
+  std::vector<std::string> without = alone;
+  without.insert(without.end(), {"--sensor-yaml", Path("bare.yaml")});
+  EXPECT_THAT(ErrorOf(without), HasSubstr("bare.yaml: no T_BS.data"));
   std::vector<std::string> in_camera = files;
   in_camera.insert(in_camera.end(), {"--sensor-yaml", Path("sensor.yaml")});
   const nlohmann::json camera_json = Json(in_camera);

@@ -1,14 +1,11 @@
 #include "apps/evaluation_input.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
-#include <Eigen/LU>
-
+#include "lift_slam/datasets/rig_transform.h"
 #include "lift_slam/evaluation/association.h"
 #include "lift_slam/evaluation/coverage.h"
 #include "lift_slam/evaluation/evaluate.h"
-#include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 
 namespace lift_slam {
@@ -27,37 +24,11 @@ std::optional<TrajectoryFormat> FormatFromName(const std::string& name, const st
                                                  : TrajectoryFormat::kEurocResult;
 }
 
-// EuRoC's files begin with "%YAML:1.0", which is OpenCV's dialect; the rest is plain YAML.
-YAML::Node LoadOpenCvYaml(const std::string& path) {
-  std::string text;
-  for (const std::string& line : ReadLines(path)) {
-    if (!line.starts_with('%')) text += line + "\n";
-  }
-  try {
-    return YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw InputError(fmt::format("{}: {}", path, error.what()));
-  }
-}
-
-Rigid3d ReadBodyFromCamera(const std::string& path) {
-  std::vector<double> values;
-  try {
-    values = LoadOpenCvYaml(path)["T_BS"]["data"].as<std::vector<double>>();
-  } catch (const YAML::Exception&) {
-    values.clear();
-  }
-  if (values.size() != 16) {
-    throw InputError(fmt::format("{}: T_BS.data, expected 16 numbers", path));
-  }
-  const Eigen::Matrix4d matrix =
-      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  const Eigen::Matrix3d excess = rotation * rotation.transpose() - Eigen::Matrix3d::Identity();
-  if (!(excess.cwiseAbs().maxCoeff() < 1e-3) || rotation.determinant() < 0.0) {
-    throw InputError(fmt::format("{}: T_BS.data, expected a rigid transform", path));
-  }
-  return {rotation, Eigen::Vector3d(matrix.topRightCorner<3, 1>())};
+// Where the camera sits on the body, which the file must say.
+Rigid3d RequireBodyFromCamera(const std::string& sensor_yaml) {
+  const auto body_from_cam = ReadBodyFromCamera(sensor_yaml, /*camera_name=*/"cam0");
+  if (body_from_cam) return *body_from_cam;
+  throw InputError(fmt::format("{}: no T_BS.data, expected 16 numbers", sensor_yaml));
 }
 
 // The sensor file that lies beside EuRoC's ground truth in the published folders.
@@ -84,7 +55,7 @@ void ChooseReferenceFrame(const EvaluationFiles& files, const EvaluationOptions&
     }
     input.warnings.push_back(fmt::format("camera on the body taken from {}", sensor_yaml));
   }
-  input.reference = CameraFromBodyTrajectory(input.reference, ReadBodyFromCamera(sensor_yaml));
+  input.reference = CameraFromBodyTrajectory(input.reference, RequireBodyFromCamera(sensor_yaml));
 }
 
 void SetTimes(const std::vector<std::int64_t>& times_ns, const std::string& path,

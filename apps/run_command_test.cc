@@ -81,7 +81,9 @@ TEST_F(RunCommand, MalformedCalibration) {
   const fs::path sequence = Render(kKitti, 3);
   WriteTextAtomically(sequence / "calib.txt", "P0: 1 2 3\n");
   ExpectOneSentence(Run(sequence), {"calib.txt:1", "12 numbers"});
-  WriteTextAtomically(folder_ / "camera.yaml", "model: pinhole\nwidth: many\n");
+  WriteTextAtomically(folder_ / "camera.yaml",
+                      "model: pinhole\nwidth: many\nheight: 240\nfx: 250\nfy: 250\n"
+                      "cx: 160\ncy: 120\n");
   ExpectOneSentence(Run(sequence, "--camera " + (folder_ / "camera.yaml").string()),
                     {"camera.yaml:2", "width"});
 }

@@ -38,7 +38,7 @@ void FindTruth(const fs::path& rig, ImageList& list) {
   for (const char* name : {"state_groundtruth_estimate0", "mocap0"}) {
     const fs::path file = rig / name / "data.csv";
     if (fs::exists(file)) {
-      list.truth = TruthFile{file, PoseFileKind::kEuroc};
+      list.truth = TruthFile{file, TrajectoryFormat::kEurocCsv};
       break;
     }
   }

@@ -5,9 +5,9 @@
 #include <cctype>
 #include <system_error>
 
-#include "lift_slam/datasets/decimal.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/number_text.h"
 
 namespace lift_slam {
 namespace {

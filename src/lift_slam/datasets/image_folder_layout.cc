@@ -64,7 +64,7 @@ ImageList ListImageFolder(const LayoutRequest& request) {
     }
   }
   if (const auto truth = FindInFolders(request.folder, image_folder, "groundtruth.txt")) {
-    list.truth = TruthFile{*truth, DetectPoseFile(*truth)};
+    list.truth = TruthFile{*truth, DetectTruthFormat(*truth)};
   }
   return list;
 }

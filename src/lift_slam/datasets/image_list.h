@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "lift_slam/camera/camera.h"
-#include "lift_slam/datasets/ground_truth.h"
 #include "lift_slam/datasets/sequence.h"
 #include "lift_slam/geometry/rigid3.h"
+#include "lift_slam/geometry/trajectory_io.h"
 
 namespace lift_slam {
 
@@ -22,9 +22,12 @@ struct ListedImage {
 // The truth that lies with a sequence.
 struct TruthFile {
   std::filesystem::path path;
-  PoseFileKind kind = PoseFileKind::kTum;
-  InvalidRows invalid_rows = InvalidRows::kRefuse;
+  TrajectoryFormat format = TrajectoryFormat::kTum;
+  NanRows nan_rows = NanRows::kRefuse;
 };
+
+// The format of a file of poses. Throws InputError when it is none or holds no pose.
+TrajectoryFormat DetectTruthFormat(const std::filesystem::path& path);
 
 // What the files of a sequence folder say, before an image is opened.
 struct ImageList {

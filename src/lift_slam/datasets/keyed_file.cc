@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lift_slam/datasets/decimal.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/number_text.h"
 
 namespace lift_slam {
 

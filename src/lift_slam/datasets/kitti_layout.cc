@@ -1,7 +1,7 @@
 // KITTI odometry and KITTI raw.
 #include <fmt/format.h>
 
-#include "lift_slam/datasets/decimal.h"
+#include "lift_slam/datasets/date_text.h"
 #include "lift_slam/datasets/image_files.h"
 #include "lift_slam/datasets/image_list.h"
 #include "lift_slam/datasets/kitti_calibration.h"
@@ -147,7 +147,7 @@ ImageList ListKittiOdometry(const LayoutRequest& request) {
   }
   const fs::path truth = request.folder.parent_path().parent_path() / "poses" /
                          (request.folder.filename().string() + ".txt");
-  if (fs::exists(truth)) list.truth = TruthFile{truth, PoseFileKind::kKitti};
+  if (fs::exists(truth)) list.truth = TruthFile{truth, TrajectoryFormat::kKitti};
   return list;
 }
 

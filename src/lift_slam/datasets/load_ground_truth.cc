@@ -9,12 +9,15 @@
 namespace lift_slam {
 namespace {
 
-// KITTI rows take the times of the images they are of; rows without an image are left out.
-Trajectory ReadKittiForImages(const TruthFile& file, const std::vector<ListedImage>& images,
-                              std::vector<std::string>& warnings) {
+[[noreturn]] void FailWithoutPoses(const std::filesystem::path& path) {
+  throw InputError(fmt::format("{}: the file holds no pose", path.string()));
+}
+
+// KITTI poses take the times of the images they are of; those without an image are left out.
+Trajectory PairByIndex(const TruthFile& file, const Trajectory& rows,
+                       const std::vector<ListedImage>& images, std::vector<std::string>& warnings) {
   std::map<std::int64_t, std::int64_t> times_ns;
   for (const ListedImage& image : images) times_ns[image.frame_index] = image.timestamp_ns;
-  const Trajectory rows = ReadKittiPoses(file.path);
   Trajectory poses;
   for (TrajectoryPose pose : rows) {
     const auto time = times_ns.find(pose.frame_index);
@@ -33,34 +36,37 @@ Trajectory ReadKittiForImages(const TruthFile& file, const std::vector<ListedIma
   return poses;
 }
 
+// Files in a format that says neither seconds nor nanoseconds are judged by their first stamp.
+TrajectoryFormat FormatWithUnit(const TruthFile& file) {
+  const bool count_ns = file.format == TrajectoryFormat::kTum &&
+                        DetectTrajectoryFormat(file.path) == TrajectoryFormat::kEurocResult;
+  return count_ns ? TrajectoryFormat::kEurocResult : file.format;
+}
+
 Trajectory ReadPoses(const TruthFile& file, const std::vector<ListedImage>& images,
                      std::vector<std::string>& warnings) {
-  switch (file.kind) {
-    case PoseFileKind::kKitti:
-      return ReadKittiForImages(file, images, warnings);
-    case PoseFileKind::kEuroc:
-      return ReadEurocPoses(file.path);
-    case PoseFileKind::kTum:
-      break;
-  }
-  return ReadTumPoses(file.path, file.invalid_rows, &warnings);
+  const TrajectoryFile poses = ReadTrajectory(file.path, FormatWithUnit(file), file.nan_rows);
+  if (poses.trajectory.empty()) FailWithoutPoses(file.path);
+  warnings.insert(warnings.end(), poses.warnings.begin(), poses.warnings.end());
+  if (!IsKitti(poses.format)) return poses.trajectory;
+  return PairByIndex(file, poses.trajectory, images, warnings);
 }
 
 std::optional<TruthFile> ChooseTruthFile(const ImageList& list, const SequenceOptions& options) {
   if (!options.ground_truth_file) return list.truth;
   TruthFile given;
   given.path = *options.ground_truth_file;
-  given.kind = DetectPoseFile(given.path);
-  if (list.truth) given.invalid_rows = list.truth->invalid_rows;
+  given.format = DetectTruthFormat(given.path);
+  if (list.truth) given.nan_rows = list.truth->nan_rows;
   return given;
 }
 
 // TUM files hold poses of the camera; KITTI's are of camera 0 and EuRoC's of the body.
 std::optional<Rigid3d> TruthFromCamera(const TruthFile& file, const ImageList& list,
                                        const SequenceOptions& options) {
-  if (file.kind == PoseFileKind::kTum) return std::nullopt;
+  if (!IsKitti(file.format) && file.format != TrajectoryFormat::kEurocCsv) return std::nullopt;
   std::optional<Rigid3d> transform = list.truth_from_cam;
-  if (file.kind == PoseFileKind::kKitti) return transform;
+  if (IsKitti(file.format)) return transform;
   if (!transform && options.camera_file) {
     transform = ReadBodyFromCamera(*options.camera_file, options.camera_name);
   }
@@ -74,6 +80,12 @@ std::optional<Rigid3d> TruthFromCamera(const TruthFile& file, const ImageList& l
 
 }  // namespace
 
+TrajectoryFormat DetectTruthFormat(const std::filesystem::path& path) {
+  const std::optional<TrajectoryFormat> format = DetectTrajectoryFormat(path);
+  if (!format) FailWithoutPoses(path);
+  return *format;
+}
+
 std::optional<GroundTruth> LoadGroundTruth(const ImageList& list,
                                            const std::vector<ListedImage>& images,
                                            const SequenceOptions& options,
@@ -82,11 +94,11 @@ std::optional<GroundTruth> LoadGroundTruth(const ImageList& list,
   if (!file) return std::nullopt;
   GroundTruth truth;
   truth.source = file->path.string();
-  truth.by_index = file->kind == PoseFileKind::kKitti;
+  truth.by_index = IsKitti(file->format);
   truth.poses = ReadPoses(*file, images, warnings);
   if (const auto truth_from_cam = TruthFromCamera(*file, list, options)) {
     truth.body_poses = truth.poses;
-    truth.poses = TransformBody(truth.poses, *truth_from_cam);
+    truth.poses = CameraFromBodyTrajectory(truth.poses, *truth_from_cam);
   }
   const auto apart =
       DescribeMissingOverlap(truth.poses, images.front().timestamp_ns, images.back().timestamp_ns);

@@ -5,6 +5,7 @@
 #include "lift_slam/datasets/dataset_test_files.h"
 #include "lift_slam/datasets/prefetching_sequence.h"
 #include "lift_slam/datasets/sequence.h"
+#include "lift_slam/geometry/trajectory_io.h"
 
 // The real sequences, where they are at hand.
 namespace lift_slam {
@@ -95,8 +96,8 @@ TEST(RealEuroc, CameraTruthIsThatOfTheConvertedFile) {
   const auto sequence = OpenSequence((*data / "euroc/V1_01_easy_static30").string());
   const GroundTruth& truth = *sequence->info().ground_truth;
   // Camera 0 poses of the whole recording from another source.
-  const Trajectory reference = ReadTumPoses(*data / "euroc/groundtruth_cam0_tum/V1_01_easy.txt",
-                                            InvalidRows::kRefuse, nullptr);
+  const Trajectory reference =
+      ReadTrajectory(*data / "euroc/groundtruth_cam0_tum/V1_01_easy.txt").trajectory;
   int num_compared = 0;
   for (const TrajectoryPose& pose : truth.poses) {
     for (const TrajectoryPose& other : reference) {

@@ -300,7 +300,8 @@ TEST(BadTruth, NanNamesFileAndLine) {
   folder.Write("camera.yaml", kTestCamera);
   folder.Write("groundtruth.txt", "# c\n1 0 0 0 0 0 0 1\n2 nan 0 0 0 0 0 1\n");
   EXPECT_THAT(OpenError(folder.path()),
-              AllOf(HasSubstr("groundtruth.txt:3"), HasSubstr("a finite number in column 2")));
+              AllOf(HasSubstr("groundtruth.txt:3"),
+                    HasSubstr("column 2 is nan, expected a finite number")));
 }
 
 TEST(BadTruth, WithoutOverlapIsNotUsedAndSaysBothRanges) {
@@ -319,6 +320,32 @@ TEST(BadTruth, WithoutOverlapIsNotUsedAndSaysBothRanges) {
   SequenceOptions options;
   options.ground_truth_file = folder / "groundtruth.txt";
   EXPECT_THAT(OpenError(folder.path(), options), HasSubstr("shares no time with the images"));
+}
+
+TEST(BadTruth, GivenFileMustHoldPoses) {
+  const TestFolder folder;
+  WriteKitti(folder);
+  const auto error = [&](const std::string& text) {
+    SequenceOptions options;
+    options.ground_truth_file = folder.Write("truth.txt", text);
+    return OpenError(folder.path(), options);
+  };
+  EXPECT_THAT(error("# nothing\n"), HasSubstr("truth.txt: the file holds no pose"));
+  EXPECT_THAT(error("1 2 3\n"), HasSubstr("truth.txt:1: 3 columns, expected 8 (TUM"));
+  EXPECT_THAT(error("1 0 0 0 0 0 0.2 1\n"), HasSubstr("truth.txt:1: the quaternion has norm"));
+  EXPECT_THAT(error("1400000000.5,1,2,3,1,0,0,0\n"), HasSubstr("truth.txt:1: timestamp"));
+}
+
+TEST(BadTruth, TimesInNanosecondsAreNoticed) {
+  const TestFolder folder;
+  folder.WriteImage("rgb/1.png");
+  folder.Write("rgb.txt", "1400000000.5 rgb/1.png\n");
+  folder.Write("camera.yaml", kTestCamera);
+  folder.Write("groundtruth.txt", "1400000000500000000 0 0 0 0 0 0 1\n");
+  const auto sequence = OpenSequence(folder.path().string());
+  ASSERT_TRUE(sequence->info().ground_truth);
+  EXPECT_EQ(sequence->info().ground_truth->poses.at(0).timestamp_ns, 1400000000500000000);
+  EXPECT_THAT(sequence->info().warnings, testing::Contains(HasSubstr("taken for nanoseconds")));
 }
 
 TEST(BadTruth, GivenFileMustExist) {

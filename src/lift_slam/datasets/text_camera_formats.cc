@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "lift_slam/datasets/camera_formats.h"
-#include "lift_slam/datasets/decimal.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/number_text.h"
 
 namespace lift_slam {
 namespace {

@@ -5,16 +5,16 @@
 
 #include <cmath>
 
-#include "lift_slam/datasets/decimal.h"
+#include "lift_slam/geometry/timestamp_text.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/number_text.h"
 
 namespace lift_slam {
 namespace {
 
 constexpr std::string_view kSeparators = " \t,";
 constexpr std::int64_t kMaxSizePx = 1'000'000;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::vector<std::string> SplitFields(std::string_view line) {
   std::vector<std::string> fields;
@@ -37,13 +37,13 @@ double TableRow::Number(std::size_t column) const {
 }
 
 std::int64_t TableRow::SecondsAsNs(std::size_t column) const {
-  const auto value = column < size() ? ParseSecondsAsNs(fields_[column]) : std::nullopt;
+  const auto value = column < size() ? ParseSeconds(fields_[column]) : std::nullopt;
   if (!value) Fail(fmt::format("a time in seconds in column {}", column + 1));
   return *value;
 }
 
 std::int64_t TableRow::Index(std::size_t column) const {
-  const auto value = column < size() ? ParseScaledDecimal(fields_[column], 0) : std::nullopt;
+  const auto value = column < size() ? ParseNanoseconds(fields_[column]) : std::nullopt;
   if (!value) Fail(fmt::format("a whole number in column {}", column + 1));
   return *value;
 }
@@ -72,11 +72,8 @@ void TableRow::Fail(std::string_view expected) const {
 std::vector<TableRow> ReadTable(const std::filesystem::path& path) {
   std::vector<TableRow> rows;
   int number = 0;
-  for (const std::string& text : ReadLines(path)) {
-    std::string_view line = text;
-    if (++number == 1 && line.starts_with(kByteOrderMark)) {
-      line.remove_prefix(kByteOrderMark.size());
-    }
+  for (const std::string& line : ReadLines(path)) {
+    ++number;
     std::vector<std::string> fields = SplitFields(line);
     if (fields.empty() || fields.front().front() == '#') continue;
     rows.emplace_back(path, number, std::move(fields));

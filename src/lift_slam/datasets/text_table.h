@@ -39,7 +39,7 @@ class TableRow {
   std::vector<std::string> fields_;
 };
 
-// All lines but empty ones and comments ('#' first). A byte order mark is ignored.
+// All lines but empty ones and comments ('#' first).
 // Throws InputError when the file cannot be read.
 std::vector<TableRow> ReadTable(const std::filesystem::path& path);
 

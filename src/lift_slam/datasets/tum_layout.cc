@@ -112,7 +112,7 @@ ImageList ListTumRgbd(const LayoutRequest& request) {
   if (list.images.empty()) throw InputError(fmt::format("{}: lists no image", index.string()));
   ReadTumRgbdCalibration(request, list);
   const fs::path truth = request.folder / "groundtruth.txt";
-  if (fs::exists(truth)) list.truth = TruthFile{truth, PoseFileKind::kTum};
+  if (fs::exists(truth)) list.truth = TruthFile{truth, TrajectoryFormat::kTum};
   return list;
 }
 
@@ -132,7 +132,7 @@ ImageList ListTumMono(const LayoutRequest& request) {
                                        : NumberTumMono(request, times_file, image_folder, list);
   const fs::path truth = request.folder / "groundtruthSync.txt";
   if (fs::exists(truth)) {
-    list.truth = TruthFile{truth, PoseFileKind::kTum, InvalidRows::kSkip};
+    list.truth = TruthFile{truth, TrajectoryFormat::kTum, NanRows::kSkip};
   }
   return list;
 }

@@ -70,8 +70,4 @@ std::vector<MapEvaluation> EvaluateEachMap(const Trajectory& estimate,
                                            const Trajectory& reference,
                                            const EvaluationOptions& options);
 
-// Camera poses of a body trajectory (EuRoC): T_wc = T_wb T_bs.
-Trajectory CameraFromBodyTrajectory(const Trajectory& world_from_body,
-                                    const Rigid3d& body_from_cam);
-
 }  // namespace lift_slam

@@ -21,4 +21,8 @@ struct TrajectoryPose {
 // Poses sorted by time.
 using Trajectory = std::vector<TrajectoryPose>;
 
+// Camera poses of a body trajectory (EuRoC): T_wc = T_wb T_bs.
+Trajectory CameraFromBodyTrajectory(const Trajectory& world_from_body,
+                                    const Rigid3d& body_from_cam);
+
 }  // namespace lift_slam

@@ -5,13 +5,13 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 
 #include "lift_slam/geometry/timestamp_text.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/number_text.h"
 
 namespace lift_slam {
 namespace {
@@ -66,19 +66,16 @@ std::vector<Row> SplitRows(const std::filesystem::path& path,
   return rows;
 }
 
-double ParseDouble(const Row& row, std::size_t column) {
-  std::string_view text = row.columns[column];
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc::invalid_argument || end != text.data() + text.size()) {
+double ParseNumber(const Row& row, std::size_t column) {
+  const std::optional<double> value = ParseDouble(row.columns[column]);
+  if (!value) {
     row.Fail(fmt::format("column {} is '{}', expected a number", column + 1, row.columns[column]));
   }
-  if (error != std::errc() || !std::isfinite(value)) {
+  if (!std::isfinite(*value)) {
     row.Fail(
         fmt::format("column {} is {}, expected a finite number", column + 1, row.columns[column]));
   }
-  return value;
+  return *value;
 }
 
 void CheckColumns(const Row& row, std::size_t expected, TrajectoryFormat format) {
@@ -93,7 +90,7 @@ enum class QuaternionOrder { kXyzw, kWxyz };
 // Columns 1 to 7: position and quaternion.
 Rigid3d ParseQuaternionPose(const Row& row, QuaternionOrder order) {
   double v[7];
-  for (std::size_t i = 0; i < 7; ++i) v[i] = ParseDouble(row, i + 1);
+  for (std::size_t i = 0; i < 7; ++i) v[i] = ParseNumber(row, i + 1);
   const Eigen::Quaterniond rotation = order == QuaternionOrder::kXyzw
                                           ? Eigen::Quaterniond(v[6], v[3], v[4], v[5])
                                           : Eigen::Quaterniond(v[3], v[4], v[5], v[6]);
@@ -110,7 +107,7 @@ Rigid3d ParseMatrixPose(const Row& row, std::size_t first) {
   for (std::size_t i = 0; i < 12; ++i) {
     const auto r = static_cast<Eigen::Index>(i / 4);
     const auto c = static_cast<Eigen::Index>(i % 4);
-    (c < 3 ? rotation(r, c) : translation(r)) = ParseDouble(row, first + i);
+    (c < 3 ? rotation(r, c) : translation(r)) = ParseNumber(row, first + i);
   }
   const Eigen::Matrix3d excess = rotation * rotation.transpose() - Eigen::Matrix3d::Identity();
   if (excess.cwiseAbs().maxCoeff() > 2.0 * kMaxRotationNormError || rotation.determinant() < 0.0) {
@@ -122,11 +119,20 @@ Rigid3d ParseMatrixPose(const Row& row, std::size_t first) {
   return {Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose()), translation};
 }
 
-bool LooksLikeNanoseconds(const Row& row) { return ParseDouble(row, 0) > kLeastNanosecondStamp; }
+bool LooksLikeNanoseconds(const Row& row) { return ParseNumber(row, 0) > kLeastNanosecondStamp; }
+
+bool HasNan(const Row& row) {
+  return std::any_of(row.columns.begin(), row.columns.end(), [](std::string_view text) {
+    const std::optional<double> value = ParseDouble(text);
+    return value && std::isnan(*value);
+  });
+}
 
 std::int64_t ParseStamp(const Row& row, bool nanoseconds) {
   const std::string_view text = row.columns[0];
-  if (LooksLikeNanoseconds(row) != nanoseconds) {
+  // Comma-separated files count nanoseconds, from 0 in some: any whole number will do there.
+  const bool is_count = nanoseconds && row.has_comma && ParseIndex(text);
+  if (!is_count && LooksLikeNanoseconds(row) != nanoseconds) {
     row.Fail(fmt::format(
         "timestamp {} looks like {}, expected {} as in the format or the line "
         "before",
@@ -137,12 +143,14 @@ std::int64_t ParseStamp(const Row& row, bool nanoseconds) {
   return *stamp;
 }
 
-Trajectory ParseStamped(const std::vector<Row>& rows, TrajectoryFormat format, bool nanoseconds) {
+Trajectory ParseStamped(const std::vector<Row>& rows, TrajectoryFormat format, bool nanoseconds,
+                        NanRows nan_rows) {
   const auto order =
       format == TrajectoryFormat::kEurocCsv ? QuaternionOrder::kWxyz : QuaternionOrder::kXyzw;
   Trajectory trajectory;
   for (const Row& row : rows) {
     CheckColumns(row, 8, format);
+    if (nan_rows == NanRows::kSkip && HasNan(row)) continue;
     TrajectoryPose& pose = trajectory.emplace_back();
     pose.timestamp_ns = ParseStamp(row, nanoseconds);
     pose.world_from_cam = ParseQuaternionPose(row, order);
@@ -153,7 +161,7 @@ Trajectory ParseStamped(const std::vector<Row>& rows, TrajectoryFormat format, b
 std::int64_t ParseFrameIndex(const Row& row, std::int64_t previous) {
   const std::optional<std::int64_t> index = ParseNanoseconds(row.columns[0]);
   if (!index || *index <= previous || *index > INT32_MAX ||
-      ParseDouble(row, 0) != static_cast<double>(*index)) {
+      ParseNumber(row, 0) != static_cast<double>(*index)) {
     row.Fail(fmt::format("frame index '{}', expected a whole number above {}", row.columns[0],
                          previous));
   }
@@ -286,7 +294,7 @@ std::optional<TrajectoryFormat> DetectTrajectoryFormat(const std::filesystem::pa
 }
 
 TrajectoryFile ReadTrajectory(const std::filesystem::path& path,
-                              std::optional<TrajectoryFormat> format) {
+                              std::optional<TrajectoryFormat> format, NanRows nan_rows) {
   const std::vector<std::string> lines = ReadLines(path);
   const std::vector<Row> rows = SplitRows(path, lines);
   TrajectoryFile file;
@@ -296,7 +304,7 @@ TrajectoryFile ReadTrajectory(const std::filesystem::path& path,
     return file;
   }
   if (!format) file.format = FormatOf(rows.front());
-  if (file.format == TrajectoryFormat::kKitti || file.format == TrajectoryFormat::kKittiIndexed) {
+  if (IsKitti(file.format)) {
     file.trajectory = ParseKitti(rows, file.format);
     file.nominal_timestamps = true;
     return file;
@@ -308,7 +316,7 @@ TrajectoryFile ReadTrajectory(const std::filesystem::path& path,
         fmt::format("{}: timestamps were taken for {}, judging by the first ({})", path.string(),
                     nanoseconds ? "nanoseconds" : "seconds", rows.front().columns[0]));
   }
-  file.trajectory = ParseStamped(rows, file.format, nanoseconds);
+  file.trajectory = ParseStamped(rows, file.format, nanoseconds, nan_rows);
   SortByTime(path, file);
   return file;
 }

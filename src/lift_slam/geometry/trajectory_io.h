@@ -23,6 +23,15 @@ enum class TrajectoryFormat {
 
 std::string_view Name(TrajectoryFormat format);
 
+// Whether the format's lines are frames without times.
+inline bool IsKitti(TrajectoryFormat format) {
+  return format == TrajectoryFormat::kKitti || format == TrajectoryFormat::kKittiIndexed;
+}
+
+// What to do with rows that hold a NaN; TUM-mono marks frames without truth so. kSkip is of the
+// formats with times only.
+enum class NanRows { kRefuse, kSkip };
+
 struct TrajectoryFile {
   // Sorted by time, stamps strictly increasing, all poses kOk. KITTI formats set frame_index and
   // the nominal stamp frame_index * 100 ms (10 Hz); the others leave frame_index at -1.
@@ -42,7 +51,8 @@ std::optional<TrajectoryFormat> DetectTrajectoryFormat(const std::filesystem::pa
 // increase. Stamps out of order are sorted and of equal stamps the first is kept, with a warning.
 // A file without poses gives an empty trajectory and a warning.
 TrajectoryFile ReadTrajectory(const std::filesystem::path& path,
-                              std::optional<TrajectoryFormat> format = std::nullopt);
+                              std::optional<TrajectoryFormat> format = std::nullopt,
+                              NanRows nan_rows = NanRows::kRefuse);
 
 // One stamp in seconds a line (KITTI times.txt), strictly increasing, as nanoseconds.
 std::vector<std::int64_t> ReadTimestamps(const std::filesystem::path& path);

@@ -5,7 +5,6 @@
 
 #include <sstream>
 
-#include "lift_slam/geometry/timestamp_text.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/random.h"
@@ -75,40 +74,6 @@ void ExpectSameStamps(const Trajectory& actual, const Trajectory& expected) {
   for (std::size_t i = 0; i < actual.size(); ++i) {
     EXPECT_EQ(actual[i].timestamp_ns, expected[i].timestamp_ns);
   }
-}
-
-TEST(TimestampText, ReadsDecimalAndScientificTextExactly) {
-  EXPECT_EQ(ParseSeconds("1403715529.112143517"), 1403715529112143517);
-  EXPECT_EQ(ParseSeconds("1.403715529112143517e+09"), 1403715529112143517);
-  EXPECT_EQ(ParseNanoseconds("1403715529112143517"), 1403715529112143517);
-  EXPECT_EQ(ParseNanoseconds("1403715529112143517.000000"), 1403715529112143517);
-  EXPECT_EQ(ParseSeconds("1.037359e-01"), 103735900);
-  EXPECT_EQ(ParseSeconds("0.000000e+00"), 0);
-  EXPECT_EQ(ParseSeconds("-0.5"), -500000000);
-  EXPECT_EQ(ParseSeconds("+.25"), 250000000);
-  EXPECT_EQ(ParseSeconds("3."), 3000000000);
-  EXPECT_EQ(ParseSeconds("1e-30"), 0);
-  EXPECT_EQ(ParseSeconds("0.0000000015"), 2);
-  EXPECT_EQ(ParseSeconds("0.9999999999"), 1000000000);
-  EXPECT_EQ(ParseNanoseconds("9223372036854775807"), INT64_MAX);
-}
-
-TEST(TimestampText, RefusesWhatIsNoNumberOrTooLarge) {
-  for (const char* text : {"", ".", "-", "e5", "1e", "1e+", "1.2.3", "nan", "inf", "12s", "0x10",
-                           "1e99999999999", "1e--5"}) {
-    EXPECT_EQ(ParseSeconds(text), std::nullopt) << text;
-  }
-  EXPECT_EQ(ParseNanoseconds("9223372036854775808"), std::nullopt);
-  EXPECT_EQ(ParseSeconds("1403715529112143517"), std::nullopt);
-  EXPECT_EQ(ParseSeconds("1e20"), std::nullopt);
-}
-
-TEST(TimestampText, FormatsExactly) {
-  for (const std::int64_t stamp :
-       {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1403715529112143517}, INT64_MAX}) {
-    EXPECT_EQ(ParseSeconds(FormatSeconds(stamp)), stamp);
-  }
-  EXPECT_EQ(FormatSeconds(-1500000000), "-1.500000000");
 }
 
 TEST_F(TrajectoryIo, TumRoundTripKeepsStampsExactlyAndPosesToNineDecimals) {
@@ -218,6 +183,36 @@ TEST_F(TrajectoryIo, RepeatedAndUnorderedStampsAreRepairedWithAWarning) {
   EXPECT_EQ(file.trajectory[0].world_from_cam.translation.x(), 6.0);
   EXPECT_EQ(file.trajectory[1].world_from_cam.translation.x(), 5.0);
   EXPECT_EQ(file.warnings.size(), 2U);
+}
+
+TEST_F(TrajectoryIo, RowsWithNanAreSkippedOnDemand) {
+  const auto& path = Write("1 0 0 0 0 0 0 1\n2 nan 0 0 0 0 0 1\nNaN 0 0 0 0 0 0 1\n");
+  const TrajectoryFile file = ReadTrajectory(path, TrajectoryFormat::kTum, NanRows::kSkip);
+  EXPECT_EQ(file.trajectory.size(), 1U);
+  EXPECT_THROW(ReadTrajectory(path, TrajectoryFormat::kTum), InputError);
+}
+
+TEST_F(TrajectoryIo, WholeStampsOfCommaSeparatedFilesAreNanosecondsFromTheFirst) {
+  const TrajectoryFile file =
+      ReadTrajectory(Write("#timestamp, p\n0,1,2,3,1,0,0,0\n50000000,1,2,4,1,0,0,0\n"));
+  EXPECT_EQ(file.format, TrajectoryFormat::kEurocCsv);
+  EXPECT_EQ(file.trajectory.at(1).timestamp_ns, 50'000'000);
+}
+
+TEST_F(TrajectoryIo, KittiFramesCountRowsOrTakeTheirIndex) {
+  const std::string pose = "1 0 0 4 0 1 0 5 0 0 1 6\n";
+  const TrajectoryFile counted = ReadTrajectory(Write(pose + pose));
+  EXPECT_EQ(counted.trajectory.at(1).frame_index, 1);
+  EXPECT_EQ(counted.trajectory.at(1).world_from_cam.translation, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(ReadTrajectory(Write("7 " + pose)).trajectory.at(0).frame_index, 7);
+  EXPECT_THAT(ErrorOf("1 0 0 nan 0 1 0 2 0 0 1 3\n"), HasSubstr(":1: column 4 is nan"));
+}
+
+TEST_F(TrajectoryIo, ByteOrderMarkIsNoColumn) {
+  EXPECT_EQ(ReadTrajectory(Write("\xEF\xBB\xBF"
+                                 "1 0 0 0 0 0 0 1\n"))
+                .trajectory.size(),
+            1U);
 }
 
 TEST_F(TrajectoryIo, EmptyFileGivesAnEmptyTrajectoryAndAWarning) {

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <numbers>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "lift_slam/geometry/trajectory_io.h"
 #include "lift_slam/geometry/triangulation.h"
 #include "lift_slam/geometry/two_view_reconstruction.h"
 #include "lift_slam/testing/real_data.h"
@@ -53,17 +53,6 @@ TwoViewReconstruction Reconstruct(const fs::path& image1, const fs::path& image2
   return ReconstructTwoViews(matches, camera.focal, {}, 1);
 }
 
-std::vector<Rigid3d> ReadKittiPoses(const fs::path& path) {
-  std::ifstream file(path);
-  std::vector<Rigid3d> poses;
-  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> row;
-  while (true) {
-    for (int i = 0; i < 12; ++i) file >> row.data()[i];
-    if (!file) return poses;
-    poses.emplace_back(Eigen::Matrix3d(row.leftCols<3>()), row.col(3));
-  }
-}
-
 fs::path Numbered(const fs::path& folder, int index, int digits) {
   return folder / fmt::format("{:0{}d}.png", index, digits);
 }
@@ -76,14 +65,17 @@ class RealPairs : public testing::Test {
   }
 
   void ExpectKittiPair(const std::string& sequence, int first, int step, const Intrinsics& camera) {
-    const auto poses = ReadKittiPoses(data_ / "kitti/poses_cut" / (sequence + ".txt"));
+    const Trajectory poses =
+        ReadTrajectory(data_ / "kitti/poses_cut" / (sequence + ".txt")).trajectory;
     const fs::path images = data_ / "kitti/sequences" / sequence / "image_0";
     const auto result =
         Reconstruct(Numbered(images, first, 6), Numbered(images, first + step, 6), camera);
     SCOPED_TRACE(fmt::format("sequence {}, frames {} and {}", sequence, first, first + step));
     EXPECT_EQ(result.status, TwoViewStatus::kSuccess) << Name(result.status);
-    const Rigid3d truth = Inverse(poses.at(static_cast<std::size_t>(first + step))) *
-                          poses.at(static_cast<std::size_t>(first));
+    const auto world_from_cam = [&](int frame) -> const Rigid3d& {
+      return poses.at(static_cast<std::size_t>(frame)).world_from_cam;
+    };
+    const Rigid3d truth = Inverse(world_from_cam(first + step)) * world_from_cam(first);
     const Rigid3d& found = result.cam2_from_cam1;
     EXPECT_LT(RotationAngle(truth.rotation * found.rotation.conjugate()) * kDegrees, 0.5);
     EXPECT_LT(AngleBetween(truth.translation, found.translation) * kDegrees, 4.0);

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/geometry/triangulation.h"
 
 namespace lift_slam {
 namespace {
 
-// Chi-square, 2 degrees of freedom, 95 %.
-constexpr double kMaxSquaredError = 5.991;
 // The ratio of a point's distances must fit the ratio of the levels within this factor times one
 // level's scale.
 constexpr double kScaleSlack = 1.5;
@@ -59,7 +58,7 @@ class PairTriangulator {
     const double squared =
         (view_.pinhole.Project(in_cam) - keyframe.features->pixel(feature)).squaredNorm();
     const auto level = static_cast<std::size_t>(keyframe.features->level(feature));
-    return squared * view_.inverse_variance[level] <= kMaxSquaredError;
+    return squared * view_.inverse_variance[level] <= kChiSquare95With2Dof;
   }
 
   bool ScaleFits(const Eigen::Vector3d& in_a, const Eigen::Vector3d& in_b,

@@ -90,6 +90,18 @@ std::vector<MapPointId> Map::PointIds() const {
   return ids;
 }
 
+std::vector<MapPointId> Map::PointsSeenBy(const std::vector<KeyFrameId>& keyframes) const {
+  std::vector<MapPointId> points;
+  for (const KeyFrameId id : keyframes) {
+    for (const MapPointId point : keyframe(id).map_points) {
+      if (point.valid()) points.push_back(point);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
 void Map::SetPose(KeyFrameId id, const Rigid3d& cam_from_world) {
   mutable_keyframe(id).cam_from_world = cam_from_world;
 }

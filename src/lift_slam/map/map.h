@@ -38,6 +38,8 @@ class Map {
   // Ids of what is in the map, ascending.
   std::vector<KeyFrameId> KeyFrameIds() const;
   std::vector<MapPointId> PointIds() const;
+  // Without repetition, ascending.
+  std::vector<MapPointId> PointsSeenBy(const std::vector<KeyFrameId>& keyframes) const;
   int num_keyframes() const { return num_keyframes_; }
   int num_points() const { return num_points_; }
   KeyFrameId newest_keyframe() const { return newest_keyframe_; }

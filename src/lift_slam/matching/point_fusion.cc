@@ -1,13 +1,11 @@
 #include "lift_slam/matching/point_fusion.h"
 
+#include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/matching/nearest_two.h"
 #include "lift_slam/matching/point_projection.h"
 
 namespace lift_slam {
 namespace {
-
-// Chi-square, 2 degrees of freedom, 95 %: a feature farther from the projection is another point.
-constexpr double kMaxSquaredError = 5.991;
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
@@ -22,7 +20,8 @@ int FindFeature(const Map& map, const KeyFrame& keyframe, const MapPoint& point,
         const int level = features.level(i);
         if (level < projection.level - 1 || level > projection.level + 1) return;
         const double squared_error = (features.pixel(i) - projection.pixel).squaredNorm();
-        if (squared_error * view.inverse_variance[Index(level)] > kMaxSquaredError) return;
+        // A feature farther from the projection is another point.
+        if (squared_error * view.inverse_variance[Index(level)] > kChiSquare95With2Dof) return;
         nearest.Offer(i, DescriptorDistance(features.descriptor_kind(), point.descriptor,
                                             features.descriptor(i)));
       });

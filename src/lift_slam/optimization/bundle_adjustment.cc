@@ -7,6 +7,7 @@
 
 #include "lift_slam/optimization/bundle_round.h"
 #include "lift_slam/optimization/ceres_bundle_solver.h"
+#include "lift_slam/optimization/min_depth.h"
 #include "lift_slam/optimization/reduced_bundle_solver.h"
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/timer.h"

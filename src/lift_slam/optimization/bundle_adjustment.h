@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lift_slam/camera/pinhole.h"
+#include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/geometry/rigid3.h"
-#include "lift_slam/optimization/chi_square.h"
 #include "lift_slam/util/options.h"
 
 namespace lift_slam {
@@ -35,7 +35,7 @@ struct BundleOptions {
   int robust_iterations = 5;  // most iterations of the first round, with a Huber loss
   int plain_iterations = 10;  // most iterations of the second, of the inliers alone, without it
   // Squared weighted error above which an observation is an outlier; its root is Huber's width.
-  double max_squared_error = kChiSquare2Dof95Percent;
+  double max_squared_error = kChiSquare95With2Dof;
   // A round ends when a step changes the cost by a smaller share of it.
   double function_tolerance = 1e-3;
   int num_threads = 1;      // of kCeres; more than 1 may change the last bits from run to run

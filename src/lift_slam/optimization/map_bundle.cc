@@ -29,18 +29,6 @@ void AddCameras(const std::vector<KeyFrameId>& ids, bool is_fixed, const Map& ma
   }
 }
 
-std::vector<MapPointId> PointsSeenBy(const std::vector<KeyFrameId>& keyframes, const Map& map) {
-  std::vector<MapPointId> points;
-  for (const KeyFrameId id : keyframes) {
-    for (const MapPointId point : map.keyframe(id).map_points) {
-      if (point.valid()) points.push_back(point);
-    }
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
 void AddPointsAndObservations(const Map& map, BundleIndex& index, BundleProblem& problem) {
   for (const MapPointId id : index.points) {
     const int point_index = static_cast<int>(problem.points.size());
@@ -64,7 +52,7 @@ BundleProblem MakeProblem(const std::vector<KeyFrameId>& free_keyframes,
   problem.intrinsics = map.view().pinhole;
   AddCameras(free_keyframes, /*is_fixed=*/false, map, index, problem);
   AddCameras(fixed_keyframes, /*is_fixed=*/true, map, index, problem);
-  index.points = PointsSeenBy(free_keyframes, map);
+  index.points = map.PointsSeenBy(free_keyframes);
   AddPointsAndObservations(map, index, problem);
   return problem;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lift_slam/optimization/cost_functions/pose_cost.h"
+#include "lift_slam/optimization/min_depth.h"
 #include "lift_slam/util/check.h"
 
 namespace lift_slam {

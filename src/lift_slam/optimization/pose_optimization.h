@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lift_slam/camera/pinhole.h"
+#include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/geometry/rigid3.h"
-#include "lift_slam/optimization/chi_square.h"
 #include "lift_slam/util/options.h"
 
 namespace lift_slam {
@@ -26,7 +26,7 @@ struct PoseOptimizationOptions {
   // them outliers, 4 finds the pose in 93 % of cases, 1 in 83 %.
   double limit_factor = 4.0;
   // Squared weighted error above which an observation is an outlier; its root is Huber's width.
-  double max_squared_error = kChiSquare2Dof95Percent;
+  double max_squared_error = kChiSquare95With2Dof;
   // A round ends when a step changes the sum of squared weighted errors by less: an error in the
   // pose of a hundredth of its standard deviation.
   double min_change = 1e-4;

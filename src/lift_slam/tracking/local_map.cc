@@ -30,18 +30,6 @@ void Append(KeyFrameId keyframe, std::size_t max_size, std::vector<KeyFrameId>& 
   }
 }
 
-std::vector<MapPointId> PointsSeenBy(const Map& map, const std::vector<KeyFrameId>& keyframes) {
-  std::vector<MapPointId> points;
-  for (const KeyFrameId id : keyframes) {
-    for (const MapPointId point : map.keyframe(id).map_points) {
-      if (point.valid()) points.push_back(point);
-    }
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
 }  // namespace
 
 LocalMap CollectLocalMap(const Map& map, const Frame& frame, int max_keyframes) {
@@ -57,7 +45,7 @@ LocalMap CollectLocalMap(const Map& map, const Frame& frame, int max_keyframes) 
       Append(neighbor.keyframe, max_size, local.keyframes);
     }
   }
-  local.points = PointsSeenBy(map, local.keyframes);
+  local.points = map.PointsSeenBy(local.keyframes);
   return local;
 }
 

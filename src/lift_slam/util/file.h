@@ -8,8 +8,8 @@
 
 namespace lift_slam {
 
-// Whole file as text, one string a line, line ends (LF or CRLF) removed.
-// Throws InputError when the file is missing or cannot be read.
+// The whole file. ReadLines gives one string a line without line ends (LF or CRLF) and without a
+// UTF-8 byte order mark. Throws InputError when the file is missing or cannot be read.
 std::vector<std::string> ReadLines(const std::filesystem::path& path);
 std::string ReadText(const std::filesystem::path& path);
 

@@ -9,21 +9,16 @@
 #include <utility>
 
 #include "lift_slam/features/orb/corner_refinement.h"
-#include "lift_slam/util/random.h"
+#include "lift_slam/features/orb/noise_image_for_test.h"
 
 namespace lift_slam {
 namespace {
 
 constexpr int kBorder = 16;
 
-// Blurred noise: corners of all strengths, and equal neighbours.
-cv::Mat NoiseImage(int width, int height, std::uint64_t seed) {
-  Random random(seed);
-  cv::Mat image(height, width, CV_8UC1);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
-      image.at<uchar>(y, x) = static_cast<uchar>(random.UniformInt(0, 255));
-  }
+// Corners of all strengths, and equal neighbours.
+cv::Mat BlurredNoiseImage(int width, int height, std::uint64_t seed) {
+  cv::Mat image = NoiseImage(width, height, seed);
   cv::GaussianBlur(image, image, {5, 5}, 1.2);
   return image;
 }
@@ -54,7 +49,7 @@ ScoreByPosition OpenCvCorners(const cv::Mat& image, int threshold, bool suppress
 class FastCornersOfSize : public testing::TestWithParam<std::pair<int, int>> {};
 
 TEST_P(FastCornersOfSize, ContainOpenCvsWithTheSameScore) {
-  const cv::Mat image = NoiseImage(GetParam().first, GetParam().second, 3);
+  const cv::Mat image = BlurredNoiseImage(GetParam().first, GetParam().second, 3);
   ScoreByPosition ours;
   for (const Corner& corner : Find(image, 12)) ours[{corner.y, corner.x}] = corner.score;
   const ScoreByPosition theirs = OpenCvCorners(image, 12, /*suppress=*/true);
@@ -109,7 +104,7 @@ TEST(FastCorners, NoneInUniformOrTinyImages) {
 }
 
 TEST(FastCorners, WorkOnPartOfALargerImage) {
-  const cv::Mat whole = NoiseImage(160, 120, 5);
+  const cv::Mat whole = BlurredNoiseImage(160, 120, 5);
   const cv::Mat part = whole(cv::Rect(40, 30, 70, 60));
   const std::vector<Corner> of_view = Find(part, 10), of_copy = Find(part.clone(), 10);
   ASSERT_EQ(of_view.size(), of_copy.size());

@@ -8,20 +8,11 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "lift_slam/features/orb/noise_image_for_test.h"
 #include "lift_slam/util/random.h"
 
 namespace lift_slam {
 namespace {
-
-cv::Mat NoiseImage(int width, int height, std::uint64_t seed) {
-  Random random(seed);
-  cv::Mat image(height, width, CV_8UC1);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x)
-      image.at<uchar>(y, x) = static_cast<uchar>(random.UniformInt(0, 255));
-  }
-  return image;
-}
 
 // cv::ORB's descriptors of the same corners; with the default edge threshold of 31 it would drop
 // those near the edge.

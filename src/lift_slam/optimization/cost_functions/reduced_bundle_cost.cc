@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lift_slam/optimization/chi_square.h"
+#include "lift_slam/optimization/min_depth.h"
 
 namespace lift_slam {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "lift_slam/optimization/chi_square.h"
+#include "lift_slam/optimization/min_depth.h"
 #include "lift_slam/optimization/so3.h"
 
 namespace lift_slam {
