@@ -5,7 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "lift_slam/optimization/chi_square.h"
+#include "lift_slam/geometry/chi_square.h"
+#include "lift_slam/optimization/min_depth.h"
 
 namespace lift_slam {
 namespace {
@@ -72,7 +73,7 @@ void AddResiduals(const BundleProblem& problem, const SelfCalibrationOptions& op
     Eigen::Vector3d& point = parameters.points[static_cast<std::size_t>(observation.point)];
     if (!((pose * point).z() > kMinDepth)) continue;
     solver.AddResidualBlock(CorrectedReprojection::Create(problem.intrinsics, observation),
-                            new ceres::HuberLoss(std::sqrt(kChiSquare2Dof95Percent)),
+                            new ceres::HuberLoss(std::sqrt(kChiSquare95With2Dof)),
                             pose.rotation.coeffs().data(), pose.translation.data(), point.data(),
                             parameters.correction.data());
   }
