@@ -77,7 +77,7 @@ TEST_F(RunSignal, KillLeavesTheOnlineTrajectorySoFar) {
   program.Send(SIGKILL);
   EXPECT_EQ(program.Wait(), -SIGKILL);
   const auto poses = ReadTrajectory(output_ / "trajectory_online.tum").trajectory;
-  EXPECT_GT(poses.size(), 20U);
+  EXPECT_GE(poses.size(), 15U);  // WaitForPoses asks for 3000 bytes
   EXPECT_FALSE(fs::exists(output_ / "result.json"));
   EXPECT_THAT(ReadText(output_ / "log.txt"), HasSubstr("tracking"));
 }

@@ -61,7 +61,7 @@ TEST(Lost, ForLongASecondMapIsBegunAndTheFirstKept) {
 
 TEST(Lost, ShortlyAfterTheStartTheMapIsThrownAway) {
   const auto sequence = SmallSequence(SyntheticPath::kRoomSway, 80, kFrameRateHz);
-  // Find the frame that begins the map, then cut the run three frames later.
+  // Find the frame that begins the map, then cut the run two frames later.
   const RunRecord whole = RunSynthetic(sequence);
   int begun = 0;
   while (whole.frames[static_cast<std::size_t>(begun)].state != TrackingState::kTracking) ++begun;
@@ -69,8 +69,9 @@ TEST(Lost, ShortlyAfterTheStartTheMapIsThrownAway) {
   EXPECT_EQ(run.counters.at("tracking.maps_reset"), 1);
   EXPECT_EQ(run.counters.at("initializer.maps_begun"), 2);
   EXPECT_EQ(run.num_maps, 1);
-  EXPECT_EQ(FramesOfMap(run, 0) > 30, true);
+  // The poses in the map thrown away are gone with it; the map after it holds the rest.
   EXPECT_EQ(run.final_trajectory[static_cast<std::size_t>(begun)].state, PoseState::kLost);
+  EXPECT_GE(Judge(run, {}).coverage.frames_ok, 50);
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST_F(RealSlam, Kitti00) {
   EXPECT_EQ(real.result.status, RunStatus::kOk);
   EXPECT_GE(real.result.coverage.coverage, 0.95);
   ASSERT_TRUE(real.result.ate_m);
-  EXPECT_LE(real.result.ate_m->rmse, 0.50);
+  EXPECT_LE(real.result.ate_m->rmse, 0.36);
 }
 
 TEST_F(RealSlam, Kitti06) {

@@ -32,9 +32,9 @@ TEST_P(RenderedSequence, IsTrackedAccurately) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RenderedSequence,
-                         testing::Values(Path{SyntheticPath::kStreetDrive, 60, 10.0, 0.30},
-                                         Path{SyntheticPath::kRoomSway, 90, 30.0, 0.02},
-                                         Path{SyntheticPath::kRoomLoop, 200, 10.0, 0.10}),
+                         testing::Values(Path{SyntheticPath::kStreetDrive, 60, 10.0, 0.15},
+                                         Path{SyntheticPath::kRoomSway, 90, 30.0, 0.015},
+                                         Path{SyntheticPath::kRoomLoop, 200, 10.0, 0.03}),
                          [](const auto& tested) { return std::string(Name(tested.param.path)); });
 
 // What the run leaves behind must fit together.
