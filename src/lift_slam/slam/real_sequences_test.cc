@@ -111,7 +111,7 @@ TEST_F(RealSlam, RedKitchen) {
   EXPECT_EQ(real.result.status, RunStatus::kOk);
   EXPECT_GE(real.result.coverage.coverage, 0.9);
   ASSERT_TRUE(real.result.ate_m);
-  EXPECT_LE(real.result.ate_m->rmse, 0.055);
+  EXPECT_LE(real.result.ate_m->rmse, 0.052);
 }
 
 }  // namespace
