@@ -1,13 +1,11 @@
 // Runs the program itself: exit codes and what it prints.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 
+#include "apps/program_for_test.h"
 #include "lift_slam/util/file.h"
 
 namespace lift_slam {
@@ -15,26 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  // standard output and error together
-};
-
-// Runs `lift_slam ARGUMENTS` by the shell.
-Outcome RunProgram(const std::string& arguments) {
-  Outcome outcome;
-  const std::string command = std::string(LIFT_SLAM_PROGRAM) + " " + arguments + " 2>&1 </dev/null";
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t size = fread(buffer.data(), 1, buffer.size(), pipe)) {
-    outcome.output.append(buffer.data(), size);
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  return outcome;
-}
 
 TEST(Program, HelpListsCommandsAndExamples) {
   const Outcome outcome = RunProgram("--help");
