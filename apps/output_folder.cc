@@ -29,6 +29,7 @@ void PrepareOutputFolder(const std::filesystem::path& folder) {
                     folder.string()));
   }
   std::filesystem::remove(probe, error);
+  std::filesystem::remove(folder / "result.json", error);
 }
 
 }  // namespace lift_slam

@@ -82,8 +82,8 @@ TEST_F(RunCommand, MalformedCalibration) {
   WriteTextAtomically(sequence / "calib.txt", "P0: 1 2 3\n");
   ExpectOneSentence(Run(sequence), {"calib.txt:1", "12 numbers"});
   WriteTextAtomically(folder_ / "camera.yaml",
-                      "model: pinhole\nwidth: many\nheight: 240\nfx: 250\nfy: 250\n"
-                      "cx: 160\ncy: 120\n");
+                      "model: pinhole\nwidth: many\nheight: 360\nfx: 375\nfy: 375\ncx: 239.5\n"
+                      "cy: 179.5\n");
   ExpectOneSentence(Run(sequence, "--camera " + (folder_ / "camera.yaml").string()),
                     {"camera.yaml:2", "width"});
 }

@@ -72,6 +72,9 @@ INSTANTIATE_TEST_SUITE_P(All, EndingSignal, testing::Values(SIGINT, SIGTERM),
                          });
 
 TEST_F(RunSignal, KillLeavesTheOnlineTrajectorySoFar) {
+  // Of an earlier run: must not be taken for this one's.
+  fs::create_directories(output_);
+  WriteTextAtomically(output_ / "result.json", "{}");
   BackgroundProgram program(Arguments("threaded"), folder_ / "printed.txt");
   ASSERT_TRUE(WaitForPoses(program)) << ReadText(folder_ / "printed.txt");
   program.Send(SIGKILL);
