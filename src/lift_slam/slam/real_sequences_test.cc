@@ -104,8 +104,8 @@ TEST_F(RealSlam, EurocStillCameraNeverInitialises) {
 }
 
 TEST_F(RealSlam, RedKitchen) {
-#ifndef __OPTIMIZE__
-  GTEST_SKIP() << "takes minutes in a debug build";
+#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "takes minutes in a debug build or under a sanitizer";
 #endif
   const RealRun real = RunReal("7scenes_redkitchen");
   EXPECT_EQ(real.result.status, RunStatus::kOk);
