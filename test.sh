@@ -37,7 +37,7 @@ read -r failed total < <(sed -E 's/^.* ([0-9]+) tests? failed out of ([0-9]+).*$
 skipped=$(grep -cE '^ *[0-9]+/[0-9]+ Test .*\*\*\*Skipped' "$log" || true)
 echo
 if ((skipped > 0)); then
-  echo "$skipped of the passed tests were skipped: the real sequences they need are not here."
+  echo "$skipped of the passed tests were skipped: each says why (no real sequences, or a preview nobody asked for)."
 fi
 echo "$((total - failed)) passed, $failed failed"
 exit "$status"
