@@ -44,6 +44,11 @@ TEST(Lost, ForLongASecondMapIsBegunAndTheFirstKept) {
   EXPECT_EQ(run.counters.at("tracking.maps_left"), 1);
   EXPECT_GE(FramesOfMap(run, 0), 45);
   EXPECT_GE(FramesOfMap(run, 1), 30);
+  // Every frame with a final pose names its map, also those tracked backwards from its beginning.
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const bool has_pose = run.final_trajectory[i].state == PoseState::kOk;
+    EXPECT_EQ(run.frames[i].map_index >= 0, has_pose) << i;
+  }
   // Nothing is claimed for the dark frames, and each map is right by itself.
   for (int i = 60; i < 120; ++i) {
     EXPECT_EQ(run.final_trajectory[static_cast<std::size_t>(i)].state, PoseState::kLost) << i;
@@ -71,6 +76,8 @@ TEST(Lost, ShortlyAfterTheStartTheMapIsThrownAway) {
   EXPECT_EQ(run.num_maps, 1);
   // The poses in the map thrown away are gone with it; the map after it holds the rest.
   EXPECT_EQ(run.final_trajectory[static_cast<std::size_t>(begun)].state, PoseState::kLost);
+  EXPECT_EQ(run.online_trajectory[static_cast<std::size_t>(begun)].state, PoseState::kLost);
+  EXPECT_EQ(run.frames[static_cast<std::size_t>(begun)].map_index, -1);
   EXPECT_GE(Judge(run, {}).coverage.frames_ok, 50);
 }
 

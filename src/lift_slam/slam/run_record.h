@@ -22,7 +22,8 @@ struct FrameRecord {
   TrackingState state = TrackingState::kInitializing;  // after the frame
   FrameRefusal refusal = FrameRefusal::kNone;
   std::optional<Rigid3d> world_from_cam;  // online pose, map units; nothing when refused
-  int map_index = -1;                     // which map of the run; -1: none
+  // Which map of the run holds the final pose; -1: none (no pose, or its map was thrown away).
+  int map_index = -1;
   bool is_keyframe = false;
   int num_features = 0;
   int num_matches = 0;  // map points matched before the final pose optimisation

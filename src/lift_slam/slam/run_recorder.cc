@@ -34,26 +34,33 @@ Trajectory WithoutPoses(const RunRecord& record) {
 void AddOnlineTrajectory(RunRecord& record) {
   record.online_trajectory = WithoutPoses(record);
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
-    if (!record.frames[i].world_from_cam) continue;
-    record.online_trajectory[i].world_from_cam = *record.frames[i].world_from_cam;
+    const FrameRecord& frame = record.frames[i];
+    if (!frame.world_from_cam || frame.map_index < 0) continue;  // lost, or of a map thrown away
+    record.online_trajectory[i].world_from_cam = *frame.world_from_cam;
     record.online_trajectory[i].state = PoseState::kOk;
   }
 }
 
 void AddFinalTrajectory(const std::vector<std::unique_ptr<MapSession>>& sessions,
                         RunRecord& record) {
-  std::map<std::int64_t, Rigid3d> poses;  // by frame index; a later map does not replace a pose
-  for (const auto& session : sessions) {
-    for (const auto& frame : session->frames()) {
-      if (const auto pose = FinalPose(*session, frame)) poses.emplace(frame.frame_index, *pose);
+  struct PoseInMap {
+    Rigid3d world_from_cam;
+    int map_index;
+  };
+  std::map<std::int64_t, PoseInMap> poses;  // by frame index; a later map does not replace a pose
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    for (const auto& frame : sessions[i]->frames()) {
+      const auto pose = FinalPose(*sessions[i], frame);
+      if (pose) poses.emplace(frame.frame_index, PoseInMap{*pose, static_cast<int>(i)});
     }
   }
   record.final_trajectory = WithoutPoses(record);
-  for (TrajectoryPose& pose : record.final_trajectory) {
-    const auto found = poses.find(pose.frame_index);
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    const auto found = poses.find(record.frames[i].frame_index);
     if (found == poses.end()) continue;
-    pose.world_from_cam = found->second;
-    pose.state = PoseState::kOk;
+    record.frames[i].map_index = found->second.map_index;  // also of frames tracked backwards
+    record.final_trajectory[i].world_from_cam = found->second.world_from_cam;
+    record.final_trajectory[i].state = PoseState::kOk;
   }
 }
 

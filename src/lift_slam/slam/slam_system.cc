@@ -100,6 +100,7 @@ void SlamSystem::HandleLost(const PreparedFrame& prepared, FrameRecord& record) 
     // Lost shortly after start: the map is worth nothing, begin anew with this frame.
     ++record_.counters["tracking.maps_reset"];
     session_.reset();
+    ForgetMapOfFrames(static_cast<int>(finished_.size()));
   } else if (static_cast<double>(record.timestamp_ns - last_tracked_ns_) * 1e-9 >
              options_.recovery_time_s) {
     ++record_.counters["tracking.maps_left"];
@@ -108,6 +109,12 @@ void SlamSystem::HandleLost(const PreparedFrame& prepared, FrameRecord& record) 
   if (!session_) {
     BeginInitializing();
     initializer_->Process(Frame(record.frame_index, record.timestamp_ns, prepared.features));
+  }
+}
+
+void SlamSystem::ForgetMapOfFrames(int map_index) {
+  for (FrameRecord& frame : record_.frames) {
+    if (frame.map_index == map_index) frame.map_index = -1;
   }
 }
 

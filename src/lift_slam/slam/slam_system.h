@@ -33,6 +33,8 @@ class SlamSystem {
   void ProcessInitializing(const PreparedFrame& prepared, FrameRecord& record);
   void ProcessTracking(const PreparedFrame& prepared, FrameRecord& record);
   void HandleLost(const PreparedFrame& prepared, FrameRecord& record);
+  // The map with this number was thrown away: another will have the number.
+  void ForgetMapOfFrames(int map_index);
   void BeginInitializing();
   void CountMapping(const MappingReport& report);
   void AdjustFinalMaps();
