@@ -91,6 +91,7 @@ void MeasureErrors(const Trajectory& estimate, const Trajectory& reference,
   result.rpe = ComputeRelativePoseError(
       aligned, FrameOfPair(result.association, result.options.estimate_lists_every_frame),
       result.options.rpe);
+  result.scale_drift = ComputeScaleDrift(aligned);
   result.aligned_estimate = AlignedTrajectory(estimate, *result.reference_from_estimate);
 }
 

@@ -10,6 +10,7 @@
 #include "lift_slam/evaluation/evaluation_options.h"
 #include "lift_slam/evaluation/kitti_error.h"
 #include "lift_slam/evaluation/relative_pose_error.h"
+#include "lift_slam/evaluation/scale_drift.h"
 #include "lift_slam/geometry/alignment.h"
 #include "lift_slam/geometry/trajectory.h"
 
@@ -44,6 +45,7 @@ struct EvaluationResult {
   std::optional<ErrorStatistics> ate_rotation_deg;  // absolute rotation error
   std::optional<KittiError> kitti;                  // only for pairs by index
   std::optional<RelativePoseError> rpe;
+  std::optional<ScaleDrift> scale_drift;
   std::vector<FrameError> frame_errors;  // one for each pair
   Trajectory aligned_estimate;  // the estimate in the reference's world; empty without alignment
 

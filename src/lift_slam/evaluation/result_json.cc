@@ -83,6 +83,12 @@ Json RpeJson(const EvaluationResult& result) {
           {"rotation_deg", ToJson(result.rpe->rotation_deg)}};
 }
 
+Json ScaleDriftJson(const ScaleDrift& drift) {
+  return {{"last_over_first", drift.last_over_first},
+          {"largest_over_smallest", drift.largest_over_smallest},
+          {"scale_of_piece", drift.scale_of_piece}};
+}
+
 Json CoverageJson(const Coverage& coverage) {
   return {{"frames_total", coverage.frames_total},
           {"frames_total_source", Name(coverage.source)},
@@ -120,6 +126,7 @@ Json ToJson(const EvaluationResult& result) {
   json["ate_rotation_deg"] = OrNull(result.ate_rotation_deg);
   json["kitti"] = result.kitti ? KittiJson(*result.kitti) : Json(nullptr);
   json["rpe"] = result.rpe ? RpeJson(result) : Json(nullptr);
+  json["scale_drift"] = result.scale_drift ? ScaleDriftJson(*result.scale_drift) : Json(nullptr);
   json["coverage"] = CoverageJson(result.coverage);
   json["thresholds"] = {{"min_ok_coverage", thresholds.min_ok_coverage},
                         {"min_partial_coverage", thresholds.min_partial_coverage},

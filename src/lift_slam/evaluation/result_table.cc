@@ -72,6 +72,11 @@ std::string FormatErrors(const EvaluationResult& result) {
   return text + FormatErrorRow("RPE " + delta + " [deg]", result.rpe->rotation_deg);
 }
 
+std::string FormatScaleDrift(const ScaleDrift& drift) {
+  return fmt::format("scale along the way: last / first tenth {:.4f}, largest / smallest {:.4f}\n",
+                     drift.last_over_first, drift.largest_over_smallest);
+}
+
 std::string FormatSegmentRow(std::string_view length, const SegmentErrors& errors) {
   if (errors.num_segments == 0) {
     return fmt::format("{:<10} {:>9} {:>14} {:>16} {:>10}\n", length, "n/a", "n/a", "n/a", 0);
@@ -94,6 +99,7 @@ std::string FormatKitti(const KittiError& kitti) {
 
 std::string FormatResult(const EvaluationResult& result) {
   std::string text = FormatStatus(result) + "\n" + FormatErrors(result) + "\n";
+  if (result.scale_drift) text += FormatScaleDrift(*result.scale_drift) + "\n";
   if (result.kitti) text += FormatKitti(*result.kitti) + "\n";
   return text + FormatSettings(result);
 }
