@@ -28,14 +28,13 @@ GlTexture Upload(const SceneTexture& picture) {
 
 SceneTexture White() { return {"white", 1, 1, false, {255, 255, 255, 255}}; }
 
-GlSampler MakeSampler(GLint wrap_v, int anisotropy) {
+GlSampler MakeSampler(GLint wrap_v) {
   GlName name = 0;
   glCreateSamplers(1, &name);
   glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glSamplerParameteri(name, GL_TEXTURE_WRAP_S, GL_REPEAT);
   glSamplerParameteri(name, GL_TEXTURE_WRAP_T, wrap_v);
-  glSamplerParameterf(name, GL_TEXTURE_MAX_ANISOTROPY, static_cast<float>(anisotropy));
   return GlSampler(name);
 }
 
@@ -57,10 +56,8 @@ void AddInput(GlName layout, unsigned int input, GLint size, std::size_t offset)
 
 }  // namespace
 
-GlTextures::GlTextures(const Scene& scene, int anisotropy)
-    : sharp_(MakeSampler(GL_REPEAT, anisotropy)),
-      plain_(MakeSampler(GL_REPEAT, 1)),
-      sky_(MakeSampler(GL_CLAMP_TO_EDGE, 1)) {
+GlTextures::GlTextures(const Scene& scene)
+    : surface_(MakeSampler(GL_REPEAT)), sky_(MakeSampler(GL_CLAMP_TO_EDGE)) {
   for (const SceneTexture& texture : scene.textures) textures_.push_back(Upload(texture));
   textures_.push_back(Upload(White()));
 }
@@ -71,10 +68,9 @@ void GlTextures::Bind(unsigned int unit, int index) const {
   glBindTextureUnit(unit, texture.Name());
 }
 
-// Alpha-tested surfaces mostly stand upright: the sharper filter would cost and give nothing.
-void GlTextures::BindSurface(unsigned int unit, int index, bool is_alpha_tested) const {
+void GlTextures::BindSurface(unsigned int unit, int index) const {
   Bind(unit, index);
-  glBindSampler(unit, is_alpha_tested ? plain_.Name() : sharp_.Name());
+  glBindSampler(unit, surface_.Name());
 }
 
 void GlTextures::BindSky(unsigned int unit, int index) const {

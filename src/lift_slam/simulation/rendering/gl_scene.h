@@ -11,17 +11,17 @@ namespace lift_slam {
 // Textures of a scene in OpenGL's hands.
 class GlTextures {
  public:
-  GlTextures(const Scene& scene, int anisotropy);
+  explicit GlTextures(const Scene& scene);
 
   // `index` as in the scene; -1 binds plain white.
-  void BindSurface(unsigned int unit, int index, bool is_alpha_tested) const;
+  void BindSurface(unsigned int unit, int index) const;
   void BindSky(unsigned int unit, int index) const;
 
  private:
   void Bind(unsigned int unit, int index) const;
 
   std::vector<GlTexture> textures_;  // the scene's, then white
-  GlSampler sharp_, plain_, sky_;    // anisotropic; not; repeated to the sides only
+  GlSampler surface_, sky_;          // repeated both ways; to the sides only
 };
 
 // Vertices and indices of a chunked scene in OpenGL's hands.

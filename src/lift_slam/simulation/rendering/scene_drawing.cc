@@ -61,12 +61,14 @@ SceneDrawing::SceneDrawing(const Scene& scene, const RenderQuality& quality)
       sky_(scene.sky),
       sky_width_(SkyWidth(scene)),
       chunked_(MakeChunks(scene, light_.to_sun, kCellM)),
-      textures_(scene, quality.anisotropy),
+      textures_(scene),
       geometry_(chunked_) {
   const bool has_fog = light_.fog_density > 0.0F;
   for (unsigned int i = 0; i < programs_.size(); ++i) {
-    programs_[i] = SurfaceProgram(
-        {.is_alpha_tested = (i & 1U) != 0, .has_shade = (i & 2U) != 0, .has_fog = has_fog});
+    programs_[i] = SurfaceProgram({.is_alpha_tested = (i & 1U) != 0,
+                                   .has_shade = (i & 2U) != 0,
+                                   .has_fog = has_fog,
+                                   .anisotropy = quality.anisotropy});
   }
   sky_program_ = MakeGlProgram(SkyVertexShader(), SkyFragmentShader(has_fog));
 }
@@ -115,8 +117,8 @@ void SceneDrawing::UseAppearance(const Appearance& look) const {
   const Vector3f constant = look.emission + look.ambient.cwiseProduct(light_.ambient);
   SetVector(program, kConstantLightUniform, constant);
   SetVector(program, kSunLightUniform, look.color.cwiseProduct(light_.diffuse));
-  textures_.BindSurface(kBaseUnit, look.texture, look.is_alpha_tested);
-  if (look.shade_texture >= 0) textures_.BindSurface(kShadeUnit, look.shade_texture, true);
+  textures_.BindSurface(kBaseUnit, look.texture);
+  if (look.shade_texture >= 0) textures_.BindSurface(kShadeUnit, look.shade_texture);
   if (look.double_sided) {
     glDisable(GL_CULL_FACE);
   } else {

@@ -11,6 +11,8 @@ struct SurfaceShaderKind {
   bool is_alpha_tested = false;
   bool has_shade = false;
   bool has_fog = false;
+  int anisotropy = 1;  // most taps of the texture filter; alpha-tested surfaces mostly stand
+                       // upright and have one
 };
 
 // Inputs of the vertex shader.
