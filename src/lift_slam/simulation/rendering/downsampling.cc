@@ -73,4 +73,20 @@ std::vector<std::uint8_t> DownsampleColor(const std::vector<std::uint8_t>& sampl
   return rgb;
 }
 
+std::vector<float> CenterDepth(const std::vector<float>& samples, const PinholeIntrinsics& pinhole,
+                               int supersampling, const DepthRange& range) {
+  const PinholeIntrinsics fine = SamplePinhole(pinhole, supersampling);
+  std::vector<float> depth_m;
+  depth_m.reserve(std::size_t(pinhole.width) * std::size_t(pinhole.height));
+  for (int y = 0; y < pinhole.height; ++y) {
+    const float* row =
+        samples.data() + std::size_t(CenterSample(y, supersampling)) * std::size_t(fine.width);
+    for (int x = 0; x < pinhole.width; ++x) {
+      const float value = row[CenterSample(x, supersampling)];
+      depth_m.push_back(value > 0.0F ? 1.0F / range.InverseDepth(value) : 0.0F);
+    }
+  }
+  return depth_m;
+}
+
 }  // namespace lift_slam

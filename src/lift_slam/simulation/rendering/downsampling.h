@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
 #include "lift_slam/camera/pinhole.h"
+#include "lift_slam/simulation/rendering/pinhole_view.h"
 
 namespace lift_slam {
 
@@ -24,5 +24,10 @@ inline int CenterSample(int pixel, int supersampling) {
 // samples: RGBA of SamplePinhole's size; result: RGB of the pinhole's size. Rows from the top.
 std::vector<std::uint8_t> DownsampleColor(const std::vector<std::uint8_t>& samples,
                                           const PinholeIntrinsics& pinhole, int supersampling);
+
+// samples: depth buffer of SamplePinhole's size; result: z at each pixel's centre, 0: nothing
+// there.
+std::vector<float> CenterDepth(const std::vector<float>& samples, const PinholeIntrinsics& pinhole,
+                               int supersampling, const DepthRange& range);
 
 }  // namespace lift_slam
