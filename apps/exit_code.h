@@ -10,6 +10,7 @@ enum ExitCode : int {
   kBadInput = 1,       // InputError or a wrong command line: one sentence on stderr
   kInternalError = 2,  // a bug, or no memory left
   kNoTrajectory = 3,   // ran, but failed to initialise or was lost
+  kStopped = 130,      // a signal ended the work before it was complete; what is there is whole
 };
 
 }  // namespace lift_slam

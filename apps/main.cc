@@ -10,6 +10,7 @@
 #include "apps/evaluate_command.h"
 #include "apps/exit_code.h"
 #include "apps/info_command.h"
+#include "apps/render_command.h"
 #include "apps/report_command.h"
 #include "apps/run_command.h"
 #include "apps/synthesize_command.h"
@@ -21,7 +22,7 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
-    AddRunCommand,        AddEvaluateCommand, AddReportCommand,
+    AddRunCommand,        AddEvaluateCommand, AddReportCommand, AddRenderCommand,
     AddSynthesizeCommand, AddConfigCommand,   AddInfoCommand,
 };
 

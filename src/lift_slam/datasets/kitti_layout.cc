@@ -1,6 +1,7 @@
 // KITTI odometry and KITTI raw.
 #include <fmt/format.h>
 
+#include "lift_slam/datasets/camera_file.h"
 #include "lift_slam/datasets/date_text.h"
 #include "lift_slam/datasets/image_files.h"
 #include "lift_slam/datasets/image_list.h"
@@ -140,10 +141,13 @@ ImageList ListKittiOdometry(const LayoutRequest& request) {
     AssignNominalTimes(request, times_file, list);
   }
   const fs::path calibration = request.folder / "calib.txt";
-  list.calibration_searched =
-      fmt::format("{} (line P{}:)", calibration.string(), camera_name.back());
+  list.calibration_searched = fmt::format("{} (line P{}:), camera.yaml beside it",
+                                          calibration.string(), camera_name.back());
   if (!request.given_camera && fs::exists(calibration)) {
     ReadRectified(calibration, camera_name, list);
+  } else if (const auto file = FindCameraFile(request.folder); !request.given_camera && file) {
+    list.camera =
+        ReadCameraFile(*file);  // of a camera with distortion, which calib.txt cannot hold
   }
   const fs::path truth = request.folder.parent_path().parent_path() / "poses" /
                          (request.folder.filename().string() + ".txt");

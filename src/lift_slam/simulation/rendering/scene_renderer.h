@@ -33,22 +33,30 @@ struct RenderQuality {
   void Check() const;  // throws InputError naming the field
 };
 
-// Draws a scene as a camera sees it: exact camera model (any distortion), anti-aliased. Not
-// thread-safe, but any number of renderers may work side by side, each in its own thread.
-// The same scene, camera, quality and pose give the same bytes.
+// Draws a scene as a camera sees it: exact camera model (any distortion), anti-aliased. Depth is
+// that of the pixel's centre. Not thread-safe, but any number of renderers may work side by side,
+// each in its own thread (see RecommendedRendererThreads). The same scene, camera, quality and
+// pose give the same bytes, in whichever renderer and thread.
 class SceneRenderer {
  public:
-  // `scene` must outlive the renderer. Throws InputError when no OpenGL context can be had.
+  // The scene is copied to OpenGL: it need not outlive the renderer. Throws InputError when no
+  // OpenGL context can be had, or an option, the camera or the scene is not valid.
   SceneRenderer(const Scene& scene, const Camera& camera, const RenderQuality& quality);
   ~SceneRenderer();
   SceneRenderer(const SceneRenderer&) = delete;
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
+  // May be called from another thread than the constructor, but not from two at once.
   RenderedView Render(const Rigid3d& cam_from_world);
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+// How many renderers, each in a thread of its own, draw most pictures a second. The software
+// renderer has its own threads for filling triangles; a second renderer keeps them busy while the
+// first prepares triangles or averages samples.
+int RecommendedRendererThreads();
 
 }  // namespace lift_slam
