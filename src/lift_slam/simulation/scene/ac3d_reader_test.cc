@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
+
 #include "lift_slam/simulation/scene/ac3d_scene.h"
 #include "lift_slam/simulation/scene/scene_test_files.h"
 
@@ -58,7 +60,7 @@ TEST(Ac3dReader, StripAlternatesItsSense) {
 
 TEST(Ac3dReader, DegenerateTrianglesOfAStripAreDropped) {
   const Scene scene = ToScene(Parse(Square("0x34", "refs 5\n1 0 0\n3 0 0\n1 0 0\n2 0 0\n0 0 0\n")));
-  EXPECT_EQ(scene.meshes.at(0).indices.size(), 3U);
+  EXPECT_EQ(scene.meshes.at(0).indices.size(), 6U);
 }
 
 TEST(Ac3dReader, ConcavePolygonCoversItsOwnAreaOnly) {

@@ -112,6 +112,15 @@ TEST(SceneLoader, TransparentSkyShowsTheBackgroundColour) {
   EXPECT_EQ(SkyPicture(torcs.Load().scene).rgba[0], 255);
 }
 
+TEST(SceneLoader, BlackBottomOfTheSkyTakesTheColourAboveIt) {
+  const Torcs torcs;
+  torcs.files().Write("tracks/road/hill/sky.rgb",
+                      SgiBytes(1, 6, 1, std::string(3, '\0') + "\x11\x22\x33"));
+  const SceneTexture sky = SkyPicture(torcs.Load().scene);
+  EXPECT_EQ(sky.rgba[0], 0x33);
+  EXPECT_EQ(sky.rgba[4 * 5], 0x33);
+}
+
 TEST(SceneLoader, LightPointsToTheSun) {
   const Scene scene = Torcs(
                           "<attnum name=\"light position x\" val=\"30\"/>"
@@ -228,9 +237,10 @@ TEST(SceneLoader, GltfWithEmbeddedTextureAndMovedNode) {
   EXPECT_EQ(scene.meshes[0].texture, 0);
   EXPECT_EQ(scene.textures.at(0).width, 1);
   EXPECT_EQ(scene.meshes[0].vertices.at(0).position, Eigen::Vector3f(5, 0, 0));
-  EXPECT_EQ(scene.meshes[0].vertices.at(2).position, Eigen::Vector3f(5, 0, 1));
+  EXPECT_EQ(scene.meshes[0].vertices.at(2).position, Eigen::Vector3f(6, 0, 1));
   // glTF's v grows downwards: 1 in the file is the picture's bottom.
   EXPECT_EQ(scene.meshes[0].vertices.at(0).uv, Eigen::Vector2f(0, 0));
+  EXPECT_EQ(scene.meshes[0].vertices.at(2).uv, Eigen::Vector2f(1, 1));
 }
 
 }  // namespace

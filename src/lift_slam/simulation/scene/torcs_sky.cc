@@ -69,6 +69,18 @@ SceneTexture HalvesSideBySide(SceneTexture& picture) {
   return strip;
 }
 
+bool IsBlack(SceneTexture& strip, int y) { return MeanOfRow(strip, y).maxCoeff() < 0.01F; }
+
+// A picture may be left black below its landscape (e-track-6): the landscape's lowest colour there.
+void FillBlackBottom(SceneTexture& strip) {
+  int lowest = strip.height - 1;
+  while (lowest > 0 && IsBlack(strip, lowest)) --lowest;
+  if (lowest == strip.height - 1) return;
+  const int kept = std::max(lowest - 2, 0);  // the rows at the border are darkened by it
+  const Eigen::Vector3f color = MeanOfRow(strip, kept);
+  for (int y = kept + 1; y < strip.height; ++y) MixRow(strip, y, color, 1.0F);
+}
+
 void FadeRims(SceneTexture& strip, const SceneSky& sky) {
   const int rows = static_cast<int>(kFadeShare * strip.height);
   for (int y = 0; y < rows; ++y) {
@@ -110,6 +122,7 @@ void AddTorcsSky(const TorcsTrack& track, Scene& scene) {
   }
   if (track.background_picture.empty()) return;
   SceneTexture strip = ReadPicture(track);
+  FillBlackBottom(strip);
   sky.bottom_elevation_rad = std::atan(type == 4 ? -1.0 : -0.5);
   sky.top_elevation_rad = std::atan(1.0);
   sky.repeats = type == 4 ? 1.0 : type == 2 ? 2.0 : 4.0;

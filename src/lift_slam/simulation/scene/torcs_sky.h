@@ -10,8 +10,9 @@ namespace lift_slam {
 //   0  the picture four times around, from height -0.5 to 1
 //   2  its lower and its upper half by turns, each a quarter around, from height -0.5 to 1
 //   4  the picture once around, from height -1 to 1
-// (TORCS mirrors 0 and 2; here they are not.) Transparent parts show the background colour. The
-// picture fades into the colours above and below it at its rims.
+// (TORCS mirrors 0 and 2; here they are not.) Transparent parts show the background colour, a
+// black bottom the lowest colour above it. The picture fades into the colours above and below it at
+// its rims.
 // Throws InputError when the picture is missing or of another type.
 void AddTorcsSky(const TorcsTrack& track, Scene& scene);
 
