@@ -54,8 +54,9 @@ class RenderCommand : public ::testing::Test {
   }
 
   Outcome Render(const std::string& arguments) const {
-    return RunProgram("render " + (folder_ / "room.obj").string() +
-                      " --size 160x120 --set walk.laps=0.05 " + arguments);
+    const std::string size = arguments.find("--size") == std::string::npos ? "--size 160x120 " : "";
+    return RunProgram("render " + (folder_ / "room.obj").string() + " --set walk.laps=0.05 " +
+                      size + arguments);
   }
   std::string Output() const { return (folder_ / "out").string(); }
 
@@ -93,7 +94,7 @@ TEST_F(RenderCommand, DistortedCameraIsFoundByItsReader) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const Outcome run = RunProgram("run " + Output() + "/sequences/00 --frames 0:3 --output " +
                                  (folder_ / "run").string());
-  EXPECT_THAT(run.output, HasSubstr("camera.yaml"));
+  EXPECT_THAT(ReadText(folder_ / "run" / "log.txt"), HasSubstr("00/camera.yaml")) << run.output;
 }
 
 TEST_F(RenderCommand, AnInterruptedRunGoesOn) {

@@ -42,6 +42,7 @@ bool OpenCameraCapture(cv::VideoCapture& capture, const std::string& source) {
 
 struct VideoReader::Capture {
   cv::VideoCapture capture;
+  std::optional<double> time_ms;  // of the last frame
 };
 
 VideoReader::VideoReader(std::unique_ptr<Capture> capture) : capture_(std::move(capture)) {}
@@ -81,7 +82,7 @@ std::optional<VideoReader> VideoReader::OpenCamera(const std::string& source, st
 VideoReader::ReadStatus VideoReader::Read(GrayImage& image) {
   cv::Mat frame;
   try {
-    if (!capture_->capture.grab()) return ReadStatus::kEnd;
+    if (!Grab()) return ReadStatus::kEnd;
     if (!capture_->capture.retrieve(frame) || frame.empty()) return ReadStatus::kUndecodable;
   } catch (const cv::Exception&) {
     return ReadStatus::kUndecodable;
@@ -90,10 +91,23 @@ VideoReader::ReadStatus VideoReader::Read(GrayImage& image) {
   return ReadStatus::kImage;
 }
 
-bool VideoReader::Skip() { return capture_->capture.grab(); }
+bool VideoReader::Skip() { return Grab(); }
+
+bool VideoReader::Grab() {
+  if (!capture_->capture.grab()) return false;
+  const std::optional<double> before_ms = capture_->time_ms;
+  const double time_ms = capture_->capture.get(cv::CAP_PROP_POS_MSEC);
+  const double rate_hz = FrameRateHz();
+  if (time_ms == 0.0 && before_ms > 0.0 && rate_hz > 0.0) {
+    capture_->time_ms = *before_ms + 1e3 / rate_hz;
+  } else {
+    capture_->time_ms = time_ms;
+  }
+  return true;
+}
 
 std::optional<std::int64_t> VideoReader::ContainerTimeNs() const {
-  const double time_ms = capture_->capture.get(cv::CAP_PROP_POS_MSEC);
+  const double time_ms = capture_->time_ms.value_or(-1.0);
   if (!std::isfinite(time_ms) || time_ms < 0.0 || time_ms > 1e12) return std::nullopt;
   return std::llround(time_ms * 1e6);
 }

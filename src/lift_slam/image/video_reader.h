@@ -29,7 +29,8 @@ class VideoReader {
   ReadStatus Read(GrayImage& image);
   // Passes over the next frame; false at the end.
   bool Skip();
-  // Time of the last frame read or skipped by the container's clock, where it has one.
+  // Time of the last frame read or skipped by the container's clock, where it has one. OpenCV knows
+  // none of the last frames that a decoder had held back: they follow at the nominal rate.
   std::optional<std::int64_t> ContainerTimeNs() const;
   // Nominal; 0: unknown.
   double FrameRateHz() const;
@@ -38,6 +39,7 @@ class VideoReader {
 
  private:
   struct Capture;
+  bool Grab();  // the next frame and its time
   explicit VideoReader(std::unique_ptr<Capture> capture);
 
   std::unique_ptr<Capture> capture_;

@@ -85,7 +85,7 @@ TEST(PlanMotion, RecordedPosesCanBeginAtTheStart) {
 TEST(PlanMotion, RefusesPosesOfAnotherFileThanAsked) {
   RenderOptions options;
   options.poses.file = PoseFile();
-  options.poses.sha256 = "0";
+  options.poses.sha256 = std::string(64, '0');
   EXPECT_THAT(WhyRefused(options), HasSubstr("SHA-256"));
   options.poses.file.clear();
   options.motion = MotionKind::kPoses;
