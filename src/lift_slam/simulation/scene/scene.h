@@ -12,7 +12,7 @@ struct SceneTexture {
   std::string name;  // file name, for messages
   int width = 0;
   int height = 0;
-  bool has_alpha = false;  // some pixel is not opaque: surfaces with it are alpha-tested
+  bool has_alpha = false;  // some pixel's alpha is below 128: surfaces with it are alpha-tested
   std::vector<std::uint8_t> rgba;
 };
 
@@ -31,8 +31,8 @@ struct SceneMesh {
   int texture = -1;                                 // index in Scene::textures; -1: color alone
   int shade_texture = -1;                           // multiplied on top (baked shadows); -1: none
   Eigen::Vector3f color = Eigen::Vector3f::Ones();  // diffuse colour, 0 to 1
-  Eigen::Vector3f emission = Eigen::Vector3f::Zero();  // light of its own, 0 to 1
-  Eigen::Vector3f ambient = Eigen::Vector3f::Ones();
+  Eigen::Vector3f emission = Eigen::Vector3f::Zero();  // light of its own, 0 to 1, textured too
+  Eigen::Vector3f ambient = Eigen::Vector3f::Ones();   // share of the ambient light, 0 to 1
   bool double_sided = true;
   std::vector<SceneVertex> vertices;
   std::vector<std::uint32_t> indices;  // three a triangle
@@ -40,9 +40,12 @@ struct SceneMesh {
 
 // What is seen behind everything, infinitely far: a picture on a cylinder around the camera.
 struct SceneSky {
-  int texture = -1;                             // index in Scene::textures; -1: `color` alone
-  Eigen::Vector3f color = {0.6F, 0.7F, 0.85F};  // where the picture does not reach
-  // The picture spans these elevations (radians above the horizon) and goes `repeats` times around.
+  int texture = -1;                                   // index in Scene::textures; -1: `color` alone
+  Eigen::Vector3f color = {0.6F, 0.7F, 0.85F};        // above the picture, or without one
+  Eigen::Vector3f color_below = {0.35F, 0.4F, 0.3F};  // below the picture
+  // The picture spans these elevations (radians above the horizon), on the cylinder: its height is
+  // linear in the elevation's tangent. It goes `repeats` times around, u growing to the right (seen
+  // from the middle) from 0 at the scene's x axis.
   double bottom_elevation_rad = -0.35;
   double top_elevation_rad = 0.6;
   double repeats = 1.0;
