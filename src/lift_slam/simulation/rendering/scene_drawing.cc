@@ -153,6 +153,7 @@ void SceneDrawing::DrawSky(const PinholeView& view, const ViewPose& pose) const 
   glUseProgram(program);
   glProgramUniformMatrix3fv(program, kSceneFromNdcUniform, 1, GL_FALSE, rays.data());
   SetVector(program, kSkyColorUniform, sky_.color);
+  SetVector(program, kSkyColorBelowUniform, sky_.color_below);
   SetVector(program, kSkyTintUniform, light_.sky_tint);
   const Eigen::Vector3d band(std::tan(sky_.bottom_elevation_rad), std::tan(sky_.top_elevation_rad),
                              sky_.repeats);

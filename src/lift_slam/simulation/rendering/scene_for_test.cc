@@ -76,6 +76,7 @@ Scene DarkScene() {
   Scene scene;
   scene.name = "dark";
   scene.sky.color.setZero();
+  scene.sky.color_below.setZero();
   scene.light.ambient.setZero();
   scene.light.diffuse.setZero();
   return scene;

@@ -295,6 +295,7 @@ Scene SkyScene() {
   scene.sky.bottom_elevation_rad = -0.2;
   scene.sky.top_elevation_rad = 0.3;
   scene.sky.color = {0.2F, 0.4F, 0.6F};
+  scene.sky.color_below = {0.6F, 0.4F, 0.2F};
   return scene;
 }
 
@@ -312,9 +313,9 @@ TEST(SceneRenderer, SkyRunsToTheRightAndEndsAtItsElevations) {
   };
   const int middle = static_cast<int>(std::lround(camera.pinhole.cx));
   EXPECT_EQ(Pixel(view, middle, row(0.34)), Eigen::Vector3i(51, 102, 153));
-  EXPECT_EQ(Pixel(view, middle, row(-0.24)), Eigen::Vector3i(51, 102, 153));
+  EXPECT_EQ(Pixel(view, middle, row(-0.24)), Eigen::Vector3i(153, 102, 51));
   EXPECT_NE(Pixel(view, middle, row(0.26)), Eigen::Vector3i(51, 102, 153));
-  EXPECT_NE(Pixel(view, middle, row(-0.16)), Eigen::Vector3i(51, 102, 153));
+  EXPECT_NE(Pixel(view, middle, row(-0.16)), Eigen::Vector3i(153, 102, 51));
 }
 
 TEST(SceneRenderer, SkyIsInfinitelyFar) {

@@ -120,6 +120,7 @@ layout(location = 1) uniform vec3 sky_color;
 layout(location = 2) uniform vec3 tint;
 layout(location = 3) uniform vec3 band;
 layout(location = 4) uniform float level;
+layout(location = 8) uniform vec3 color_below;
 layout(binding = 0) uniform sampler2D picture;
 #ifdef FOGGY
 layout(location = 5) uniform vec3 fog_color;
@@ -130,7 +131,7 @@ out vec4 color;
 void main() {
   float slope = ray.z / length(ray.xy);
   float height = (slope - band.x) / (band.y - band.x);
-  vec3 seen = sky_color;
+  vec3 seen = height < 0.0 ? color_below : sky_color;
   if (level >= 0.0 && height >= 0.0 && height <= 1.0) {
     float u = -atan(ray.y, ray.x) * band.z * 0.15915494;
     seen = textureLod(picture, vec2(u, 1.0 - height), level).rgb;

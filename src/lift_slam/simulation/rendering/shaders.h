@@ -27,11 +27,12 @@ inline constexpr int kEyeLowUniform = 2;         // vec3: so that far-off scenes
 inline constexpr int kConstantLightUniform = 3;  // vec3: emission and ambient
 inline constexpr int kSunLightUniform = 4;       // vec3: diffuse
 // Uniforms of the sky program.
-inline constexpr int kSceneFromNdcUniform = 0;  // mat3: viewing ray of (x, y, 1)
-inline constexpr int kSkyColorUniform = 1;      // vec3
-inline constexpr int kSkyTintUniform = 2;       // vec3: brightness of the picture and the colour
-inline constexpr int kSkyBandUniform = 3;       // vec3: tan of bottom and top elevation, repeats
-inline constexpr int kSkyLevelUniform = 4;      // float: mip-map level; negative: no picture
+inline constexpr int kSceneFromNdcUniform = 0;   // mat3: viewing ray of (x, y, 1)
+inline constexpr int kSkyColorUniform = 1;       // vec3, above the picture
+inline constexpr int kSkyTintUniform = 2;        // vec3: brightness of the picture and the colour
+inline constexpr int kSkyBandUniform = 3;        // vec3: tan of bottom and top elevation, repeats
+inline constexpr int kSkyLevelUniform = 4;       // float: mip-map level; negative: no picture
+inline constexpr int kSkyColorBelowUniform = 8;  // vec3
 // Uniforms of both with fog.
 inline constexpr int kFogColorUniform = 5;    // vec3
 inline constexpr int kFogDensityUniform = 6;  // float: 1 / m
