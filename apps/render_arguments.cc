@@ -49,7 +49,7 @@ void RenderArguments::AddTo(CLI::App& command) {
                      "Poses of the camera in the scene instead (TUM, KITTI), a frame each");
   command.add_option("--camera", camera_file,
                      "Calibration file (default: KITTI's, 1241x376, f 718.856)");
-  command.add_option("--size", size, "Image size, the view stays the same: WIDTHxHEIGHT");
+  command.add_option("--size", size, "Image size, the view from left to right stays: WIDTHxHEIGHT");
   command.add_option("--rate", rate_hz, "Images a second (default 10)");
   command.add_option("--frames", frames, "Part of the frames, LAST included: FIRST:LAST:STEP");
   command.add_flag("--depth", depth, "Exact depth as well (depth_0, 256 a metre)");

@@ -98,12 +98,12 @@ void CameraOptions::ScaleTo(int new_width, int new_height) {
     width = new_width, height = new_height;
     return;
   }
-  const double x_scale = static_cast<double>(new_width) / width;
-  const double y_scale = static_cast<double>(new_height) / height;
-  fx *= x_scale;
-  fy *= y_scale;
-  cx = (cx + 0.5) * x_scale - 0.5;  // pixel centres: the image's edge is at -0.5
-  cy = (cy + 0.5) * y_scale - 0.5;
+  const double scale = static_cast<double>(new_width) / width;
+  fx *= scale;
+  fy *= scale;
+  // From the image centre; (0, 0) is a pixel's centre.
+  cx = 0.5 * (new_width - 1) + scale * (cx - 0.5 * (width - 1));
+  cy = 0.5 * (new_height - 1) + scale * (cy - 0.5 * (height - 1));
   width = new_width;
   height = new_height;
 }

@@ -25,7 +25,8 @@ struct CameraOptions {
   Camera ToCamera() const;
   // Takes everything of a calibration; its rate only when it has one.
   void Set(const Camera& camera);
-  // The same view in another size: focal lengths and principal point grow with the image.
+  // The same view from left to right in another size; pixels keep their shape, so another aspect
+  // ratio shows more or less at the top and bottom alike.
   void ScaleTo(int new_width, int new_height);
 };
 

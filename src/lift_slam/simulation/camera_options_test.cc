@@ -33,17 +33,19 @@ TEST(CameraOptions, TakeEveryModelAndGiveItBack) {
   }
 }
 
-TEST(CameraOptions, ScalingKeepsTheViewingRays) {
+TEST(CameraOptions, ScalingKeepsTheViewAcrossAndThePixelsShape) {
   CameraOptions options;
   const Camera before = options.ToCamera();
-  options.ScaleTo(620, 188);
+  options.ScaleTo(620, 300);
   const Camera after = options.ToCamera();
-  // The image's corners are half a pixel outside the outermost pixel centres.
-  EXPECT_LT((before.pinhole.Unproject({-0.5, -0.5}) - after.pinhole.Unproject({-0.5, -0.5})).norm(),
-            1e-12);
-  EXPECT_LT(
-      (before.pinhole.Unproject({1240.5, 375.5}) - after.pinhole.Unproject({619.5, 187.5})).norm(),
-      1e-12);
+  EXPECT_EQ(after.pinhole.fx, after.pinhole.fy);
+  // The image's edges are half a pixel outside the outermost pixel centres.
+  EXPECT_NEAR(before.pinhole.Unproject({-0.5, 0}).x(), after.pinhole.Unproject({-0.5, 0}).x(),
+              1e-12);
+  EXPECT_NEAR(before.pinhole.Unproject({1240.5, 0}).x(), after.pinhole.Unproject({619.5, 0}).x(),
+              1e-12);
+  EXPECT_NEAR(before.pinhole.Unproject({0, 187.5}).y(), after.pinhole.Unproject({0, 149.5}).y(),
+              1e-12);
 }
 
 TEST(CameraOptions, RefuseSizesAndRatesThatCannotBe) {
