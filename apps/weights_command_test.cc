@@ -53,7 +53,7 @@ TEST(WeightsCommand, ImportsWhatTheAuthorsReleased) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   const Outcome info = RunProgram("weights info " + kPath.string());
   EXPECT_THAT(info.output, HasSubstr("lift-released-T-kp_noaug"));
-  EXPECT_THAT(info.output, HasSubstr("(grey - 110.7539) / 61.53688"));
+  EXPECT_THAT(info.output, HasSubstr("(grey - 110.7539) / 61.5368"));
   EXPECT_THAT(info.output, HasSubstr("none (upright patches)"));
   EXPECT_THAT(info.output, HasSubstr("0.3 0.5 0.7 1 1.6"));
   std::filesystem::remove(kPath);

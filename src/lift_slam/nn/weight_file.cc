@@ -28,6 +28,11 @@ constexpr std::size_t kHeaderAlignment = 8;
 constexpr const char* kMetadata = "__metadata__";
 constexpr const char* kSha256 = "sha256";
 
+// Bytes that are no UTF-8 (of a file name, say) are replaced.
+std::string Dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 float FromHalf(std::uint16_t bits) {
   const int exponent = (bits >> 10) & 0x1F;
   const int fraction = bits & 0x3FF;
@@ -98,7 +103,7 @@ class Reader {
   }
 
   void CheckHash(WeightFile& contents) const {
-    contents.sha256 = Sha256Hex(header_.dump() + std::string(data_));
+    contents.sha256 = Sha256Hex(Dump(header_) + std::string(data_));
     const auto found = contents.metadata.find(kSha256);
     if (found == contents.metadata.end()) return;
     if (found->second != contents.sha256) {
@@ -222,9 +227,9 @@ std::string WriteWeightFile(const WeightFile& contents, const std::filesystem::p
     header[name] = {
         {"dtype", "F32"}, {"shape", entry.shape}, {"data_offsets", {begin, data.size()}}};
   }
-  const std::string sha256 = Sha256Hex(header.dump() + data);
+  const std::string sha256 = Sha256Hex(Dump(header) + data);
   header[kMetadata][kSha256] = sha256;
-  std::string text = header.dump();
+  std::string text = Dump(header);
   text.append((kHeaderAlignment - text.size() % kHeaderAlignment) % kHeaderAlignment, ' ');
   const std::uint64_t length = text.size();
   WriteFileAtomically(path, [&](std::ostream& stream) {

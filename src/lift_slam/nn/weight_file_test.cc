@@ -158,6 +158,13 @@ TEST_F(WeightFileTest, ValuesThatAreNotFinite) {
   EXPECT_THAT(ReadError(), HasSubstr("tensor 'b' holds a value that is not finite (number 4)"));
 }
 
+TEST_F(WeightFileTest, TextThatIsNoUtf8IsReplaced) {
+  WeightFile contents = Example();
+  contents.metadata["note"] = "a\xFF";
+  WriteWeightFile(contents, path_);
+  EXPECT_EQ(ReadWeightFile(path_).metadata.at("note"), "a\xEF\xBF\xBD");
+}
+
 TEST_F(WeightFileTest, ShapeAndSizeMustAgreeWhenWriting) {
   WeightFile contents = Example();
   contents.tensors["b"].values.pop_back();

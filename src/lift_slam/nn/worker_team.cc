@@ -1,6 +1,5 @@
 #include "lift_slam/nn/worker_team.h"
 
-#include <exception>
 #include <utility>
 
 #include "lift_slam/util/check.h"

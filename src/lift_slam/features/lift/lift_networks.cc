@@ -113,6 +113,13 @@ ScoreMap LiftNetworks::DirectScores(const GrayImage& image) {
   return {shape.w, shape.h, detector.Run(std::span<const std::uint8_t>(pixels_))};
 }
 
+std::vector<float> MeasureDescriptorRanges(const LiftWeights& weights,
+                                           std::span<const std::uint8_t> patches) {
+  const std::vector<float> samples(patches.begin(), patches.end());
+  return nn::MeasureActivationRanges(weights.descriptor, kPatch,
+                                     MakeOptions({}, weights.descriptor_input), samples);
+}
+
 float LiftAngle(float first, float second) {
   constexpr float kTiny = 1e-10F, kAwayFromZero = 1e-3F;
   const float larger = std::max({std::abs(first), std::abs(second), kTiny});

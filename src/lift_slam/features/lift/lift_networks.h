@@ -76,6 +76,11 @@ class LiftNetworks {
   std::vector<float> scores_, angles_;
 };
 
+// What int8 needs to know (LiftWeights::descriptor_ranges), measured on typical patches: a few
+// hundred do. By the reference back-end, about 0.1 s a patch.
+std::vector<float> MeasureDescriptorRanges(const LiftWeights& weights,
+                                           std::span<const std::uint8_t> patches);
+
 // The angle of one patch from the orientation network's two values (divided by the larger and
 // kept away from zero, as the authors do, so that (0, 0) has an angle too).
 float LiftAngle(float first, float second);

@@ -185,9 +185,8 @@ TEST(LiftNetworksTest, LowerPrecisionStaysNear) {
   const std::vector<std::uint8_t> patches = RandomPatches(20);
   for (const LiftTopology topology : {LiftTopology::kF, LiftTopology::kT}) {
     LiftWeights weights = RandomLiftWeights(topology, 4, /*with_orientation=*/false);
-    std::vector<float> samples(patches.begin(), patches.begin() + 2 * 64 * 64);
-    weights.descriptor_ranges = nn::MeasureActivationRanges(
-        weights.descriptor, {1, 1, 64, 64}, {.input_mean = 128.0F, .input_scale = 128.0F}, samples);
+    weights.descriptor_ranges =
+        MeasureDescriptorRanges(weights, std::span(patches).first(2 * 64 * 64));
     LiftNetworks exact(weights, {});
     const auto expected = exact.DescribePatches(std::span(patches));
     float largest = 0.0F;

@@ -21,7 +21,8 @@ inline constexpr double kLiftHalfWidthSigmas = 6.0;
 // pixels: with u, v from -half_width_px to +half_width_px along columns and rows,
 //   X = x + u cos - v sin,  Y = y + u sin + v cos.
 // One stage, unlike the two of the authors' code (design: same result but for their rounding and
-// second blur). CheckError unless patch.size() == size * size, size >= 2 and the image not empty.
+// second blur). CheckError unless patch.size() == size * size, size >= 2 and the image has 2 x 2
+// pixels.
 void SamplePatch(const GrayImage& image, const PatchFrame& frame, int size, std::span<float> patch);
 // The same, rounded to the nearest grey value.
 void SamplePatch(const GrayImage& image, const PatchFrame& frame, int size,
