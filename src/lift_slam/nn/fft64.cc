@@ -22,19 +22,22 @@ struct Twiddles {
   }
 };
 
-const Twiddles kTwiddles;
+const Twiddles& TwiddleTable() {
+  static const Twiddles table;
+  return table;
+}
 
-inline void MultiplyInto(Vector real, Vector imaginary, int twiddle, Vector& out_real,
-                         Vector& out_imaginary) {
-  const float c = kTwiddles.cosine[static_cast<std::size_t>(twiddle)];
-  const float s = kTwiddles.sine[static_cast<std::size_t>(twiddle)];
+inline void MultiplyInto(const Twiddles& twiddles, int n, Vector real, Vector imaginary,
+                         Vector& out_real, Vector& out_imaginary) {
+  const float c = twiddles.cosine[static_cast<std::size_t>(n)];
+  const float s = twiddles.sine[static_cast<std::size_t>(n)];
   out_real = real * c - imaginary * s;
   out_imaginary = real * s + imaginary * c;
 }
 
 // All butterflies of one stage; blocks of `length` values.
 template <int length>
-inline void Stage(Vector* real, Vector* imaginary) {
+inline void Stage(const Twiddles& twiddles, Vector* real, Vector* imaginary) {
   constexpr int kQuarter = length / 4, kStep = kFftSize / length;
   for (int j = 0; j < kQuarter; ++j) {
     for (int block = 0; block < kFftSize; block += length) {
@@ -49,12 +52,12 @@ inline void Stage(Vector* real, Vector* imaginary) {
       r[0] = sum_r + odd_sum_r;
       i[0] = sum_i + odd_sum_i;
       // Minus, then plus, the imaginary unit times the odd difference.
-      MultiplyInto(difference_r + odd_difference_i, difference_i - odd_difference_r, j * kStep,
-                   r[kQuarter], i[kQuarter]);
-      MultiplyInto(sum_r - odd_sum_r, sum_i - odd_sum_i, 2 * j * kStep, r[2 * kQuarter],
+      MultiplyInto(twiddles, j * kStep, difference_r + odd_difference_i,
+                   difference_i - odd_difference_r, r[kQuarter], i[kQuarter]);
+      MultiplyInto(twiddles, 2 * j * kStep, sum_r - odd_sum_r, sum_i - odd_sum_i, r[2 * kQuarter],
                    i[2 * kQuarter]);
-      MultiplyInto(difference_r - odd_difference_i, difference_i + odd_difference_r, 3 * j * kStep,
-                   r[3 * kQuarter], i[3 * kQuarter]);
+      MultiplyInto(twiddles, 3 * j * kStep, difference_r - odd_difference_i,
+                   difference_i + odd_difference_r, r[3 * kQuarter], i[3 * kQuarter]);
     }
   }
 }
@@ -78,8 +81,9 @@ inline void LastStage(Vector* real, Vector* imaginary) {
 }  // namespace
 
 void Fft64(Vector* real, Vector* imaginary) {
-  Stage<64>(real, imaginary);
-  Stage<16>(real, imaginary);
+  const Twiddles& twiddles = TwiddleTable();
+  Stage<64>(twiddles, real, imaginary);
+  Stage<16>(twiddles, real, imaginary);
   LastStage(real, imaginary);
 }
 
