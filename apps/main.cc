@@ -14,6 +14,7 @@
 #include "apps/report_command.h"
 #include "apps/run_command.h"
 #include "apps/synthesize_command.h"
+#include "apps/weights_command.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
 
@@ -23,7 +24,7 @@ namespace {
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
     AddRunCommand,        AddEvaluateCommand, AddReportCommand, AddRenderCommand,
-    AddSynthesizeCommand, AddConfigCommand,   AddInfoCommand,
+    AddSynthesizeCommand, AddWeightsCommand,  AddConfigCommand, AddInfoCommand,
 };
 
 void AddEverything(CLI::App& app) {

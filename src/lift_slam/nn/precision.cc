@@ -1,0 +1,29 @@
+#include "lift_slam/nn/precision.h"
+
+#include <algorithm>
+
+namespace lift_slam::nn {
+
+std::string_view Name(Precision precision) {
+  return kPrecisionNames[static_cast<std::size_t>(precision)];
+}
+
+PrecisionChoice ChoosePrecision(Precision wanted, std::span<const std::string> cpu_features,
+                                bool has_activation_ranges) {
+  const auto has = [&](std::string_view name) {
+    return std::find(cpu_features.begin(), cpu_features.end(), name) != cpu_features.end();
+  };
+  if (wanted == Precision::kFloat32) return {};
+  std::string reason;
+  if (wanted == Precision::kInt8) {
+    if (has("avx512_vnni") && has_activation_ranges) return {Precision::kInt8, ""};
+    reason = has_activation_ranges ? "int8 needs a CPU with AVX-512 VNNI"
+                                   : "int8 needs the ranges of the activations, which these "
+                                     "weights lack";
+  }
+  if (has("avx512_bf16")) return {Precision::kBfloat16, reason};
+  if (!reason.empty()) reason += "; ";
+  return {Precision::kFloat32, reason + "bfloat16 needs a CPU with AVX-512 BF16"};
+}
+
+}  // namespace lift_slam::nn
