@@ -1,9 +1,12 @@
 // Checks the ground truth of a rendered sequence by its pixels alone: relative poses from SIFT
 // matches and the essential matrix against the poses written, and depth by warping each frame into
-// the next. Usage: verify_ground_truth FOLDER [PAIRS]; FOLDER as `lift_slam render --depth` made
-// it.
+// the next; also how many corners there are. Usage: verify_ground_truth FOLDER [PAIRS]; FOLDER as
+// `lift_slam render --depth` made it.
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
@@ -56,6 +59,29 @@ RenderedSequence Load(const std::string& root) {
     throw InputError(root + ": fewer poses than images");
   }
   return loaded;
+}
+
+// How much there is to see: FAST corners and the share of 64-pixel cells that hold one.
+void CountCorners(const RenderedSequence& rendered) {
+  constexpr int kCell = 64;
+  std::vector<double> counts, shares;
+  for (const GrayImage& image : rendered.images) {
+    std::vector<cv::KeyPoint> corners;
+    cv::FAST(image.mat(), corners, 20);
+    const int columns = (image.width() + kCell - 1) / kCell;
+    const int rows = (image.height() + kCell - 1) / kCell;
+    std::vector<char> seen(static_cast<std::size_t>(columns * rows), 0);
+    for (const cv::KeyPoint& corner : corners) {
+      const int cell =
+          static_cast<int>(corner.pt.y) / kCell * columns + static_cast<int>(corner.pt.x) / kCell;
+      seen[static_cast<std::size_t>(cell)] = 1;
+    }
+    counts.push_back(static_cast<double>(corners.size()));
+    shares.push_back(static_cast<double>(std::count(seen.begin(), seen.end(), 1)) /
+                     static_cast<double>(seen.size()));
+  }
+  std::printf("corners: %zu frames, median %.0f FAST(20) corners, %.2f of the cells of 64 pixels\n",
+              rendered.images.size(), Median(counts), Median(shares));
 }
 
 struct PoseError {
@@ -222,6 +248,7 @@ int main(int argc, char** argv) {
   }
   try {
     const auto rendered = lift_slam::Load(argv[1]);
+    lift_slam::CountCorners(rendered);
     lift_slam::CheckPoses(rendered, argc > 2 ? std::atoi(argv[2]) : 100);
     lift_slam::CheckDepth(rendered);
   } catch (const lift_slam::InputError& error) {
