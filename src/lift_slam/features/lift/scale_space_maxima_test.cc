@@ -51,10 +51,10 @@ std::vector<ScorePeak> BruteForce(const ScoreLevel& level, int index) {
 
 TEST(SpaceMaxima, AreThoseOfBruteForceInAnyStrips) {
   Random random(5);
-  for (const int num_values : {3, 100, 1000000}) {
+  for (const int num_values : {30, 100, 1000000}) {
     const ScoreLevel level = RandomLevel({.width = 121, .height = 75}, num_values, random);
     const std::vector<ScorePeak> expected = BruteForce(level, 4);
-    if (num_values > 3) EXPECT_GT(expected.size(), 50U);
+    EXPECT_GT(expected.size(), 20U);
     for (const int rows : {1, 5, 64, 1000}) {
       std::vector<ScorePeak> found;
       for (int y = 0; y < 75; y += rows) AppendSpaceMaxima(level, 4, y, y + rows, found);
@@ -92,15 +92,15 @@ TEST(ScaleMaxima, AreThoseOfBruteForce) {
             if (other < 0 || other >= static_cast<int>(levels.size())) expected = false;
             if (d == 0 || !expected) continue;
             const ScoreLevel& level = levels[static_cast<std::size_t>(other)];
-            const double ratio_x = how == LevelCoordinates::kExact
-                                       ? static_cast<double>(level.shape.width) / own.shape.width
-                                       : (level.shape.width - 1.0) / (own.shape.width - 1.0);
-            const double ratio_y = how == LevelCoordinates::kExact
-                                       ? static_cast<double>(level.shape.height) / own.shape.height
-                                       : (level.shape.height - 1.0) / (own.shape.height - 1.0);
-            const double half = how == LevelCoordinates::kExact ? 0.5 : 0.0;
-            const auto x = static_cast<int>(std::lround((peak.x + half) * ratio_x - half));
-            const auto y = static_cast<int>(std::lround((peak.y + half) * ratio_y - half));
+            // In the order of operations of the code, since halves are rounded.
+            const auto there = [&](int at, int from, int to) {
+              const double position = how == LevelCoordinates::kExact
+                                          ? (at + 0.5) * to / from - 0.5
+                                          : static_cast<double>(at) * (to - 1) / (from - 1);
+              return static_cast<int>(std::lround(position));
+            };
+            const int x = there(peak.x, own.shape.width, level.shape.width);
+            const int y = there(peak.y, own.shape.height, level.shape.height);
             for (int v = y - 3; v <= y + 3; ++v) {
               for (int u = x - 3; u <= x + 3; ++u) {
                 expected = expected && level.At(u, v) < own.At(peak.x, peak.y);
