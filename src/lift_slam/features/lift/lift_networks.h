@@ -60,6 +60,8 @@ class LiftNetworks {
 
   // What the descriptor really uses, and why it is not what was asked for.
   const nn::PrecisionChoice& precision() const { return descriptor_->precision(); }
+  // The threads of the networks, for work between their calls.
+  nn::WorkerTeam& team() { return *team_; }
 
  private:
   nn::Executor& DetectorFor(int width, int height);

@@ -1,0 +1,42 @@
+#include "lift_slam/features/lift/lift_options.h"
+
+#include <fmt/format.h>
+
+#include "lift_slam/util/input_error.h"
+
+namespace lift_slam {
+namespace {
+
+template <class T>
+void CheckRange(std::string_view name, T value, T low, T high) {
+  if (value >= low && value <= high) return;  // false for NaN too
+  throw InputError(
+      fmt::format("option 'lift.{}' is {}, expected {} to {}", name, value, low, high));
+}
+
+}  // namespace
+
+void LiftExtractorOptions::Visit(OptionVisitor& visitor) {
+  visitor.Field("max_features", max_features, "features per image, spread over it; 0: all found");
+  visitor.Group("detector", detector, "maxima of the detector's scores");
+  visitor.Field("precision", precision, nn::kPrecisionNames,
+                "arithmetic of descriptor and orientation, where the CPU has it");
+  visitor.Field("upright", upright, "patches are not turned (no orientation network)");
+  visitor.Field("sigma_px", sigma_px, "noise of the position of a keypoint of sigma 1");
+  visitor.Field("low_threshold", low_threshold,
+                "strict distance of descriptors; 0: as measured with the weights, or 2");
+  visitor.Field("high_threshold", high_threshold,
+                "loose distance of descriptors; 0: as measured with the weights, or 3");
+  visitor.Field("num_threads", num_threads, "threads of one image");
+}
+
+void LiftExtractorOptions::Check() const {
+  detector.Check();
+  CheckRange("max_features", max_features, 0, 100000);
+  CheckRange("sigma_px", sigma_px, 0.01, 100.0);
+  CheckRange("low_threshold", low_threshold, 0.0, 1e6);
+  CheckRange("high_threshold", high_threshold, 0.0, 1e6);
+  CheckRange("num_threads", num_threads, 1, 64);
+}
+
+}  // namespace lift_slam

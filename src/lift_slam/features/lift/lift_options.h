@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "lift_slam/features/lift/keypoint_detection.h"
+#include "lift_slam/nn/precision.h"
+#include "lift_slam/util/options.h"
+
+namespace lift_slam {
+
+struct LiftExtractorOptions {
+  // Features per image, spread over it; 0: all that are found.
+  int max_features = 1000;
+  LiftDetectorOptions detector = {};
+  // Of the descriptor and the orientation, where the CPU has it.
+  nn::Precision precision = nn::Precision::kFloat32;
+  // Patches are not turned. Needed with weights that have no orientation network; descriptors of a
+  // camera that does not roll tell points apart better so.
+  bool upright = false;
+  // Standard deviation of the position of a keypoint of sigma 1, pixels; grows with sigma. The
+  // scores have about one pixel for a sigma of 2.
+  double sigma_px = 0.5;
+  // Distances of descriptors below which two are taken for the same point, strictly and loosely;
+  // 0: from what was measured with the weights, or the paper's of KITTI, 2 and 3.
+  double low_threshold = 0.0;
+  double high_threshold = 0.0;
+  // Threads, the caller included; the result does not depend on it.
+  int num_threads = 1;
+
+  void Visit(OptionVisitor& visitor);
+  // Throws InputError naming the option that is out of range.
+  void Check() const;
+};
+
+}  // namespace lift_slam
