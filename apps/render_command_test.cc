@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -60,7 +61,8 @@ class RenderCommand : public ::testing::Test {
   }
   std::string Output() const { return (folder_ / "out").string(); }
 
-  fs::path folder_ = fs::path(::testing::TempDir()) / "render_command_test";
+  fs::path folder_ =
+      fs::path(::testing::TempDir()) / ("render_command_test_" + std::to_string(getpid()));
 };
 
 TEST_F(RenderCommand, MakesASequenceThatRunOpens) {

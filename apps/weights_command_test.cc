@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -14,7 +15,8 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 const std::filesystem::path kPath =
-    std::filesystem::path(testing::TempDir()) / "lift_slam_weights_command_test.safetensors";
+    std::filesystem::path(testing::TempDir()) /
+    ("lift_slam_weights_command_test_" + std::to_string(getpid()) + ".safetensors");
 
 TEST(WeightsCommand, InfoDescribesAFile) {
   LiftWeights weights = RandomLiftWeights(LiftTopology::kT, 3);

@@ -1,6 +1,7 @@
 #include "lift_slam/simulation/depth_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -12,7 +13,8 @@ namespace {
 
 DepthImage ReadBack(const DepthImage& image, DepthFormat format) {
   const std::filesystem::path file =
-      std::filesystem::path(::testing::TempDir()) / ("depth_test" + DepthExtension(format));
+      std::filesystem::path(::testing::TempDir()) /
+      ("depth_test_" + std::to_string(getpid()) + DepthExtension(format));
   WriteBytesAtomically(file, EncodeDepth(image, format));
   return ReadDepth(file);
 }

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "lift_slam/simulation/motion/test_roads.h"
 #include "lift_slam/util/file.h"
@@ -28,7 +29,8 @@ std::string WhyRefused(const RenderOptions& options, const std::optional<Road>& 
 }
 
 std::string PoseFile() {
-  const std::string file = ::testing::TempDir() + "/motion_plan_poses.tum";
+  const std::string file =
+      ::testing::TempDir() + "/motion_plan_poses_" + std::to_string(getpid()) + ".tum";
   WriteTextAtomically(file, "5 1 0 0 0 0 0 1\n5.25 2 0 0 0 0 0 1\n6 4 0 0 0 0 0 1\n");
   return file;
 }

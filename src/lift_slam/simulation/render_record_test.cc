@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "lift_slam/simulation/sensor_options.h"
 #include "lift_slam/util/file.h"
@@ -15,7 +16,8 @@ using ::testing::HasSubstr;
 class RenderRecord : public ::testing::Test {
  protected:
   void SetUp() override { std::filesystem::remove(file_); }
-  std::filesystem::path file_ = std::filesystem::path(::testing::TempDir()) / "render_record.yaml";
+  std::filesystem::path file_ = std::filesystem::path(::testing::TempDir()) /
+                                ("render_record_" + std::to_string(getpid()) + ".yaml");
   SensorOptions options_;
 };
 

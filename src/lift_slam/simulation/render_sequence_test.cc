@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <map>
 
@@ -60,7 +61,8 @@ class RenderSequenceTest : public ::testing::Test {
     return files;
   }
 
-  fs::path root_ = fs::path(::testing::TempDir()) / "render_sequence_test";
+  fs::path root_ =
+      fs::path(::testing::TempDir()) / ("render_sequence_test_" + std::to_string(getpid()));
   StraightMotion motion_;
   std::atomic<int> num_sources_ = 0, num_views_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -22,6 +23,8 @@ class SequenceVideo : public ::testing::Test {
     fs::create_directories(folder_);
   }
 
+  void TearDown() override { fs::remove_all(folder_); }
+
   // Grey images that become brighter.
   std::vector<fs::path> Images(int count, int width) const {
     std::vector<fs::path> files;
@@ -32,7 +35,8 @@ class SequenceVideo : public ::testing::Test {
     return files;
   }
 
-  fs::path folder_ = fs::path(::testing::TempDir()) / "sequence_video_test";
+  fs::path folder_ =
+      fs::path(::testing::TempDir()) / ("sequence_video_test_" + std::to_string(getpid()));
 };
 
 TEST_F(SequenceVideo, IsReadBackWithItsFramesTimesAndCamera) {

@@ -199,7 +199,8 @@ TEST(SceneLoader, ObjIsTurnedToZUp) {
   }
   SceneLoaderOptions z_up;
   z_up.up_axis = UpAxis::kZ;
-  for (const SceneVertex& vertex : LoadScene(path, z_up).scene.meshes.at(0).vertices) {
+  const LoadedScene as_stored = LoadScene(path, z_up);
+  for (const SceneVertex& vertex : as_stored.scene.meshes.at(0).vertices) {
     EXPECT_EQ(vertex.position.z(), 0.0F);
   }
 }
