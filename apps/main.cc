@@ -9,6 +9,7 @@
 #include "apps/config_command.h"
 #include "apps/evaluate_command.h"
 #include "apps/exit_code.h"
+#include "apps/extract_command.h"
 #include "apps/info_command.h"
 #include "apps/render_command.h"
 #include "apps/report_command.h"
@@ -23,8 +24,8 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
-    AddRunCommand,        AddEvaluateCommand, AddReportCommand, AddRenderCommand,
-    AddSynthesizeCommand, AddWeightsCommand,  AddConfigCommand, AddInfoCommand,
+    AddRunCommand,     AddEvaluateCommand, AddReportCommand, AddRenderCommand, AddSynthesizeCommand,
+    AddExtractCommand, AddWeightsCommand,  AddConfigCommand, AddInfoCommand,
 };
 
 void AddEverything(CLI::App& app) {

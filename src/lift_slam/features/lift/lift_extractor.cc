@@ -98,7 +98,14 @@ FeatureSet LiftExtractor::Extract(const GrayImage& image) {
 }
 
 std::vector<LiftKeypoint> LiftExtractor::DetectSpread(const GrayImage& image) {
-  const std::vector<LiftKeypoint> all = detector_.Detect(image, networks_);
+  std::vector<LiftKeypoint> all = detector_.Detect(image, networks_);
+  const double num_candidates = options_.max_features * options_.candidate_ratio;
+  if (options_.max_features > 0 && static_cast<double>(all.size()) > num_candidates) {
+    std::stable_sort(all.begin(), all.end(), [](const LiftKeypoint& a, const LiftKeypoint& b) {
+      return a.score > b.score;
+    });
+    all.resize(static_cast<std::size_t>(num_candidates));
+  }
   std::vector<ScoredPoint> points;
   points.reserve(all.size());
   for (const LiftKeypoint& k : all) {

@@ -18,6 +18,8 @@ void CheckRange(std::string_view name, T value, T low, T high) {
 
 void LiftExtractorOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("max_features", max_features, "features per image, spread over it; 0: all found");
+  visitor.Field("candidate_ratio", candidate_ratio,
+                "they are spread over the image from this many times as many, the strongest");
   visitor.Group("detector", detector, "maxima of the detector's scores");
   visitor.Field("precision", precision, nn::kPrecisionNames,
                 "arithmetic of descriptor and orientation, where the CPU has it");
@@ -33,6 +35,7 @@ void LiftExtractorOptions::Visit(OptionVisitor& visitor) {
 void LiftExtractorOptions::Check() const {
   detector.Check();
   CheckRange("max_features", max_features, 0, 100000);
+  CheckRange("candidate_ratio", candidate_ratio, 1.0, 1e3);
   CheckRange("sigma_px", sigma_px, 0.01, 100.0);
   CheckRange("low_threshold", low_threshold, 0.0, 1e6);
   CheckRange("high_threshold", high_threshold, 0.0, 1e6);

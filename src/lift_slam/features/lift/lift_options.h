@@ -9,8 +9,11 @@
 namespace lift_slam {
 
 struct LiftExtractorOptions {
-  // Features per image, spread over it; 0: all that are found.
+  // Features per image; 0: all that are found.
   int max_features = 1000;
+  // They are chosen from this many times as many, the strongest. 1: the strongest, wherever they
+  // are; large: spread evenly, but half of them do not repeat in the next frame (KITTI 06).
+  double candidate_ratio = 1.3;
   LiftDetectorOptions detector = {};
   // Of the descriptor and the orientation, where the CPU has it.
   nn::Precision precision = nn::Precision::kFloat32;
