@@ -1,7 +1,5 @@
 #include "apps/evaluate_command.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <iterator>
@@ -117,12 +115,7 @@ std::string DatasetOf(TrajectoryFormat reference_format) {
 }
 
 void WriteOutput(const EvaluationResult& result, const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError(
-        fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
-  }
+  CreateFolder(folder);
   WriteTextAtomically(folder / "result.json", ToJson(result).dump(2) + "\n");
   const Trajectory& aligned = result.aligned_estimate;
   if (aligned.empty()) return;

@@ -7,6 +7,7 @@
 #include "apps/program_for_test.h"
 #include "lift_slam/features/lift/lift_weights.h"
 #include "lift_slam/image/image.h"
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/random.h"
 
@@ -19,8 +20,6 @@ using testing::StartsWith;
 class ExtractCommand : public testing::Test {
  protected:
   void SetUp() override {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
     LiftWeights weights = RandomLiftWeights(LiftTopology::kF, 3, /*with_orientation=*/false);
     WriteLiftWeights(weights, folder_ / "w.safetensors");
     Random random(1);
@@ -31,11 +30,9 @@ class ExtractCommand : public testing::Test {
     }
     cv::imwrite(Path("a.png"), image);
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
 
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "lift_slam_extract";
+  TemporaryFolder folder_;
 };
 
 TEST_F(ExtractCommand, WritesFeaturesAndAPicture) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <thread>
 
 #include "apps/build_info.h"
 #include "apps/exit_code.h"
@@ -27,6 +26,7 @@
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_writer.h"
 #include "lift_slam/util/sha256.h"
+#include "lift_slam/util/system_info.h"
 
 namespace lift_slam {
 namespace {
@@ -151,9 +151,7 @@ void RenderAll(const RenderArguments& arguments, const RenderOptions& options,
   const Clock::time_point start = Clock::now();
   RenderWork work;
   work.make_view_source = RendererFactory(scene.scene, options);
-  work.num_threads = arguments.num_threads > 0
-                         ? arguments.num_threads
-                         : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  work.num_threads = arguments.num_threads > 0 ? arguments.num_threads : NumHardwareThreads();
   work.stop = [&] { return stop.Requested(); };
   work.progress = [&](int frames_done) {
     progress.frames_done = frames_done;

@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -8,6 +7,7 @@
 #include <thread>
 
 #include "apps/program_for_test.h"
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
 
 namespace lift_slam {
@@ -20,8 +20,6 @@ using ::testing::HasSubstr;
 class RenderCommand : public ::testing::Test {
  protected:
   void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     WriteTexture();
     WriteTextAtomically(folder_ / "room.mtl", "newmtl wall\nKd 1 1 1\nmap_Kd wall.ppm\n");
     WriteTextAtomically(folder_ / "room.obj", RoomObj());
@@ -61,16 +59,15 @@ class RenderCommand : public ::testing::Test {
   }
   std::string Output() const { return (folder_ / "out").string(); }
 
-  fs::path folder_ =
-      fs::path(::testing::TempDir()) / ("render_command_test_" + std::to_string(getpid()));
+  TemporaryFolder folder_;
 };
 
 TEST_F(RenderCommand, MakesASequenceThatRunOpens) {
   const Outcome outcome = Render("--output " + Output() + " --pairs --color");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("sequence "));
-  EXPECT_TRUE(fs::exists(folder_ / "out" / "pairs.txt"));
-  EXPECT_THAT(ReadText(folder_ / "out" / "render.yaml"), HasSubstr("scene_sha256: "));
+  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "pairs.txt"));
+  EXPECT_THAT(ReadText(folder_.path() / "out" / "render.yaml"), HasSubstr("scene_sha256: "));
   const Outcome same = Render("--output " + Output() + " --pairs --color");
   EXPECT_THAT(same.output, HasSubstr(" 0 of them rendered now"));
   const Outcome other = Render("--output " + Output() + " --pairs --color --seed 7");
@@ -84,7 +81,7 @@ TEST_F(RenderCommand, RecordRendersTheSameAgain) {
                                    (folder_ / "again").string());
   ASSERT_EQ(again.exit_code, 0) << again.output;
   const std::string image = "sequences/00/image_0/000003.png";
-  EXPECT_EQ(ReadText(folder_ / "out" / image), ReadText(folder_ / "again" / image));
+  EXPECT_EQ(ReadText(folder_.path() / "out" / image), ReadText(folder_.path() / "again" / image));
 }
 
 TEST_F(RenderCommand, DistortedCameraIsFoundByItsReader) {
@@ -96,7 +93,7 @@ TEST_F(RenderCommand, DistortedCameraIsFoundByItsReader) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const Outcome run = RunProgram("run " + Output() + "/sequences/00 --frames 0:3 --output " +
                                  (folder_ / "run").string());
-  EXPECT_THAT(ReadText(folder_ / "run" / "log.txt"), HasSubstr("00/camera.yaml")) << run.output;
+  EXPECT_THAT(ReadText(folder_ / "run/log.txt"), HasSubstr("00/camera.yaml")) << run.output;
 }
 
 TEST_F(RenderCommand, AnInterruptedRunGoesOn) {
@@ -135,7 +132,7 @@ TEST_F(RenderCommand, RefusesBadInputInOneSentence) {
   EXPECT_THAT(why(output + "--frames 5:1"), HasSubstr("FIRST:LAST:STEP"));
   EXPECT_THAT(why(output + "--size 161x120 --video a.mp4"), HasSubstr("even width"));
   EXPECT_FALSE(fs::exists(Output()));
-  EXPECT_THAT(why("--output " + folder_.string()), HasSubstr("not empty"));
+  EXPECT_THAT(why("--output " + folder_.path().string()), HasSubstr("not empty"));
 }
 
 TEST_F(RenderCommand, ShowsHelpAndOptions) {

@@ -1,14 +1,11 @@
 #include "apps/report_command.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
 #include "lift_slam/evaluation/run_report.h"
 #include "lift_slam/util/file.h"
-#include "lift_slam/util/input_error.h"
 
 namespace lift_slam {
 namespace {
@@ -28,12 +25,7 @@ void WriteTables(const Arguments& arguments) {
   const RunReport report = BuildReport(files);
   if (!arguments.output.empty()) {
     const std::filesystem::path folder = arguments.output;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-      throw InputError(
-          fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
-    }
+    CreateFolder(folder);
     WriteTextAtomically(folder / "report.md", report.markdown);
     WriteTextAtomically(folder / "report.csv", report.csv);
   }

@@ -10,7 +10,6 @@
 #include "apps/run_result_json.h"
 #include "lift_slam/geometry/trajectory_io.h"
 #include "lift_slam/util/file.h"
-#include "lift_slam/util/input_error.h"
 #include "lift_slam/visualization/colmap_model.h"
 #include "lift_slam/visualization/map_ply.h"
 #include "lift_slam/visualization/report_html.h"
@@ -51,12 +50,7 @@ void WriteTrajectories(const FinishedRun& finished, const fs::path& folder,
 }
 
 void WriteColmapModel(const ColmapModel& model, const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw InputError(
-        fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
-  }
+  CreateFolder(folder);
   WriteFileAtomically(folder / "cameras.txt", [&](std::ostream& s) { model.WriteCameras(s); });
   WriteFileAtomically(folder / "images.txt", [&](std::ostream& s) { model.WriteImages(s); });
   WriteFileAtomically(folder / "points3D.txt", [&](std::ostream& s) { model.WritePoints3d(s); });

@@ -1,12 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
 #include "apps/program_for_test.h"
 #include "lift_slam/features/lift/lift_reference_for_test.h"
 #include "lift_slam/features/lift/lift_weights.h"
+#include "lift_slam/testing/temporary_folder.h"
 
 namespace lift_slam {
 namespace {
@@ -14,22 +14,19 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::filesystem::path kPath =
-    std::filesystem::path(testing::TempDir()) /
-    ("lift_slam_weights_command_test_" + std::to_string(getpid()) + ".safetensors");
-
 TEST(WeightsCommand, InfoDescribesAFile) {
+  const TemporaryFolder files;
+  const std::filesystem::path path = files / "weights.safetensors";
   LiftWeights weights = RandomLiftWeights(LiftTopology::kT, 3);
   weights.distances = DistanceQuantiles{{0.1F, 0.2F, 0.3F, 0.4F, 0.5F}, {1, 2, 3, 4, 5}};
-  WriteLiftWeights(weights, kPath);
-  const Outcome outcome = RunProgram("weights info " + kPath.string());
+  WriteLiftWeights(weights, path);
+  const Outcome outcome = RunProgram("weights info " + path.string());
   EXPECT_EQ(outcome.exit_code, 0);
   for (const std::string& part :
        {std::string("random"), weights.sha256, std::string("2019162 parameters"),
         std::string("0.1 0.2 0.3 0.4 0.5"), std::string("He initialisation, seed 3")}) {
     EXPECT_THAT(outcome.output, HasSubstr(part));
   }
-  std::filesystem::remove(kPath);
 }
 
 TEST(WeightsCommand, BadInputIsOneSentence) {
@@ -46,19 +43,20 @@ TEST(WeightsCommand, BadInputIsOneSentence) {
 
 TEST(WeightsCommand, ImportsWhatTheAuthorsReleased) {
   LIFT_SLAM_SKIP_WITHOUT_REFERENCE();
+  const TemporaryFolder files;
+  const std::filesystem::path path = files / "weights.safetensors";
   const std::string folder = LiftReferenceFolder().string();
   const Outcome outcome =
       RunProgram("weights import " + folder + "/new-CNN3-picc-iter-56k.h5 " + folder +
                  "/tf-lift-release.h5 --descriptor T --detector noaug --matching 0.3 0.5 0.7 1 1.6 "
                  "--nearest-wrong 1.5 2 2.7 3 3.3 --output " +
-                 kPath.string());
+                 path.string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  const Outcome info = RunProgram("weights info " + kPath.string());
+  const Outcome info = RunProgram("weights info " + path.string());
   EXPECT_THAT(info.output, HasSubstr("lift-released-T-kp_noaug"));
   EXPECT_THAT(info.output, HasSubstr("(grey - 110.7539) / 61.5368"));
   EXPECT_THAT(info.output, HasSubstr("none (upright patches)"));
   EXPECT_THAT(info.output, HasSubstr("0.3 0.5 0.7 1 1.6"));
-  std::filesystem::remove(kPath);
 }
 
 }  // namespace

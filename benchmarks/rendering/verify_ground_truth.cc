@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "lift_slam/datasets/sequence.h"
+#include "lift_slam/evaluation/error_statistics.h"
 #include "lift_slam/geometry/trajectory_io.h"
 #include "lift_slam/simulation/depth_file.h"
 #include "lift_slam/simulation/sequence_folder.h"
@@ -27,13 +28,6 @@ namespace lift_slam {
 namespace {
 
 constexpr double kPairDistanceM = 1.0;
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return NAN;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 struct RenderedSequence {
   SequenceFolder folder;
@@ -167,6 +161,10 @@ void CheckPoses(const RenderedSequence& rendered, int num_pairs) {
     directions.push_back(error->direction_deg);
     inliers.push_back(error->inliers);
   }
+  if (rotations.empty()) {
+    std::printf("poses: no pair with enough matches\n");
+    return;
+  }
   std::printf(
       "poses: %zu pairs, %d without enough matches; median rotation error %.4f deg, "
       "direction error %.3f deg, %.0f inliers\n",
@@ -228,7 +226,7 @@ void CheckDepth(const RenderedSequence& rendered) {
     CompareWarped(rendered, i, *here, *there, errors);
     ++pairs;
   }
-  if (pairs == 0) {
+  if (errors.gray.empty() || errors.relative.empty()) {
     std::printf("depth: none stored\n");
     return;
   }

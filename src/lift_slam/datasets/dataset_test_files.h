@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lift_slam/datasets/sequence.h"
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/input_error.h"
 
 // Small sequences on disk, for the tests of this folder.
@@ -22,30 +23,12 @@ constexpr char kTestCamera[] =
 constexpr char kKittiCalibration[] =
     "P0: 10 0 5.5 0 0 10 3.5 0 0 0 1 0\nP2: 10 0 5.5 -5 0 10 3.5 0 0 0 1 0\n";
 
-// A folder that is removed at the end of the test.
-class TestFolder {
+class TestFolder : public TemporaryFolder {
  public:
-  TestFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lift_slam_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TestFolder() { std::filesystem::remove_all(path_); }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-  std::filesystem::path Write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path file = path_ / name;
-    std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << text;
-    return file;
-  }
   // A grey 12 x 8 image whose top-left pixel is `value`.
   std::filesystem::path WriteImage(const std::string& name, int value = 0, int width = 12,
                                    int height = 8) const {
-    const std::filesystem::path file = path_ / name;
+    const std::filesystem::path file = path() / name;
     std::filesystem::create_directories(file.parent_path());
     cv::Mat image(height, width, CV_8UC1);
     for (int i = 0; i < width * height; ++i) {
@@ -54,9 +37,6 @@ class TestFolder {
     cv::imwrite(file.string(), image);
     return file;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 inline std::vector<SequenceFrame> ReadAll(Sequence& sequence) {

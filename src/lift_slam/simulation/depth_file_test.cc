@@ -1,20 +1,19 @@
 #include "lift_slam/simulation/depth_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "lift_slam/simulation/sequence_folder.h"
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/input_error.h"
 
 namespace lift_slam {
 namespace {
 
 DepthImage ReadBack(const DepthImage& image, DepthFormat format) {
-  const std::filesystem::path file =
-      std::filesystem::path(::testing::TempDir()) /
-      ("depth_test_" + std::to_string(getpid()) + DepthExtension(format));
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / ("depth" + DepthExtension(format));
   WriteBytesAtomically(file, EncodeDepth(image, format));
   return ReadDepth(file);
 }

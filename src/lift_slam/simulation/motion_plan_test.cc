@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "lift_slam/simulation/motion/test_roads.h"
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 
@@ -28,12 +28,7 @@ std::string WhyRefused(const RenderOptions& options, const std::optional<Road>& 
   return "";
 }
 
-std::string PoseFile() {
-  const std::string file =
-      ::testing::TempDir() + "/motion_plan_poses_" + std::to_string(getpid()) + ".tum";
-  WriteTextAtomically(file, "5 1 0 0 0 0 0 1\n5.25 2 0 0 0 0 0 1\n6 4 0 0 0 0 0 1\n");
-  return file;
-}
+constexpr char kPoses[] = "5 1 0 0 0 0 0 1\n5.25 2 0 0 0 0 0 1\n6 4 0 0 0 0 0 1\n";
 
 TEST(PlanMotion, DrivesWhereThereIsARoadElseWalks) {
   EXPECT_THAT(Plan({}).description, HasSubstr("drive of"));
@@ -67,7 +62,8 @@ TEST(PlanMotion, RefusesRangesThatAreNone) {
 
 TEST(PlanMotion, RecordedPosesAreFramesAtTheirTimes) {
   RenderOptions options;
-  options.poses.file = PoseFile();
+  const TemporaryFolder folder;
+  options.poses.file = folder.Write("poses.tum", kPoses).string();
   const MotionPlan plan = Plan(options);
   EXPECT_EQ(plan.times_ns, (std::vector<std::int64_t>{0, 250000000, 1000000000}));
   EXPECT_NEAR(plan.motion->WorldFromCam(0.25).translation.x(), 2.0, 1e-12);
@@ -76,7 +72,8 @@ TEST(PlanMotion, RecordedPosesAreFramesAtTheirTimes) {
 TEST(PlanMotion, RecordedPosesCanBeginAtTheStart) {
   RenderOptions options;
   const Rigid3d start = Plan(options).motion->WorldFromCam(0.0);
-  options.poses.file = PoseFile();
+  const TemporaryFolder folder;
+  options.poses.file = folder.Write("poses.tum", kPoses).string();
   options.poses.from_start = true;
   options.poses.scale = 2.0;
   const MotionPlan plan = Plan(options);
@@ -86,7 +83,8 @@ TEST(PlanMotion, RecordedPosesCanBeginAtTheStart) {
 
 TEST(PlanMotion, RefusesPosesOfAnotherFileThanAsked) {
   RenderOptions options;
-  options.poses.file = PoseFile();
+  const TemporaryFolder folder;
+  options.poses.file = folder.Write("poses.tum", kPoses).string();
   options.poses.sha256 = std::string(64, '0');
   EXPECT_THAT(WhyRefused(options), HasSubstr("SHA-256"));
   options.poses.file.clear();

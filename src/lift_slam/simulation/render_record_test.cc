@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "lift_slam/simulation/sensor_options.h"
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 
@@ -15,9 +15,8 @@ using ::testing::HasSubstr;
 
 class RenderRecord : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::remove(file_); }
-  std::filesystem::path file_ = std::filesystem::path(::testing::TempDir()) /
-                                ("render_record_" + std::to_string(getpid()) + ".yaml");
+  TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "render.yaml";
   SensorOptions options_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <map>
 
@@ -10,6 +9,7 @@
 #include "lift_slam/geometry/trajectory_io.h"
 #include "lift_slam/simulation/sequence_folder.h"
 #include "lift_slam/simulation/test_views.h"
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 
@@ -21,8 +21,6 @@ using ::testing::HasSubstr;
 
 class RenderSequenceTest : public ::testing::Test {
  protected:
-  void SetUp() override { fs::remove_all(root_); }
-
   SequenceRequest Request() const {
     SequenceRequest request{motion_,
                             FrameTimesNs(2.0, 10.0),
@@ -61,8 +59,8 @@ class RenderSequenceTest : public ::testing::Test {
     return files;
   }
 
-  fs::path root_ =
-      fs::path(::testing::TempDir()) / ("render_sequence_test_" + std::to_string(getpid()));
+  TemporaryFolder folder_;
+  const fs::path root_ = folder_ / "sequence";
   StraightMotion motion_;
   std::atomic<int> num_sources_ = 0, num_views_ = 0;
 };

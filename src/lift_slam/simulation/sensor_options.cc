@@ -3,18 +3,9 @@
 #include <fmt/format.h>
 
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_range.h"
 
 namespace lift_slam {
-namespace {
-
-void CheckRange(const char* name, double value, double least, double most) {
-  if (value >= least && value <= most) return;
-  throw InputError(
-      fmt::format("sensor.{} is {}, expected a number from {} to {}", name, value, least, most));
-}
-
-}  // namespace
-
 void SensorOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("exposure_time_s", motion_blur.exposure_s, "motion blur; 0: none");
   visitor.Field("blur_samples", motion_blur.samples, "pictures averaged for it, an odd number");
@@ -36,25 +27,25 @@ void SensorOptions::Visit(OptionVisitor& visitor) {
 }
 
 void SensorOptions::Check() const {
-  CheckRange("exposure_time_s", motion_blur.exposure_s, 0.0, 10.0);
-  CheckRange("blur_samples", motion_blur.samples, 1, 999);
+  CheckOptionRange("sensor.exposure_time_s", motion_blur.exposure_s, 0.0, 10.0);
+  CheckOptionRange("sensor.blur_samples", motion_blur.samples, 1, 999);
   if (motion_blur.samples % 2 == 0) {
     throw InputError(
         fmt::format("sensor.blur_samples is {}, expected an odd number", motion_blur.samples));
   }
-  CheckRange("rolling_readout_s", rolling_shutter.readout_s, 0.0, 10.0);
-  CheckRange("rolling_bands", rolling_shutter.bands, 1, 4096);
-  CheckRange("vignetting", vignetting, 0.0, 1.0);
-  CheckRange("exposure_swing_ev", exposure.swing_ev, 0.0, 10.0);
-  CheckRange("exposure_period_s", exposure.swing_period_s, 1e-3, 1e6);
-  CheckRange("exposure_jump_ev", exposure.jump_ev, 0.0, 10.0);
-  CheckRange("exposure_jump_interval_s", exposure.jump_interval_s, 1e-2, 1e6);
-  CheckRange("full_well_electrons", noise.full_well_electrons, 0.0, 1e9);
-  CheckRange("read_electrons", noise.read_electrons, 0.0, 1e6);
-  CheckRange("gamma", gamma, 0.1, 10.0);
-  CheckRange("gamma_swing", gamma_swing, 0.0, 0.9 * gamma);
-  CheckRange("gamma_period_s", gamma_period_s, 1e-3, 1e6);
-  CheckRange("salt_and_pepper", salt_and_pepper, 0.0, 1.0);
+  CheckOptionRange("sensor.rolling_readout_s", rolling_shutter.readout_s, 0.0, 10.0);
+  CheckOptionRange("sensor.rolling_bands", rolling_shutter.bands, 1, 4096);
+  CheckOptionRange("sensor.vignetting", vignetting, 0.0, 1.0);
+  CheckOptionRange("sensor.exposure_swing_ev", exposure.swing_ev, 0.0, 10.0);
+  CheckOptionRange("sensor.exposure_period_s", exposure.swing_period_s, 1e-3, 1e6);
+  CheckOptionRange("sensor.exposure_jump_ev", exposure.jump_ev, 0.0, 10.0);
+  CheckOptionRange("sensor.exposure_jump_interval_s", exposure.jump_interval_s, 1e-2, 1e6);
+  CheckOptionRange("sensor.full_well_electrons", noise.full_well_electrons, 0.0, 1e9);
+  CheckOptionRange("sensor.read_electrons", noise.read_electrons, 0.0, 1e6);
+  CheckOptionRange("sensor.gamma", gamma, 0.1, 10.0);
+  CheckOptionRange("sensor.gamma_swing", gamma_swing, 0.0, 0.9 * gamma);
+  CheckOptionRange("sensor.gamma_period_s", gamma_period_s, 1e-3, 1e6);
+  CheckOptionRange("sensor.salt_and_pepper", salt_and_pepper, 0.0, 1.0);
 }
 
 }  // namespace lift_slam

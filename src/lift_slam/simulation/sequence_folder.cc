@@ -8,7 +8,6 @@
 #include "lift_slam/geometry/trajectory_io.h"
 #include "lift_slam/image/image_file.h"
 #include "lift_slam/util/file.h"
-#include "lift_slam/util/input_error.h"
 
 namespace lift_slam {
 namespace {
@@ -17,15 +16,6 @@ namespace fs = std::filesystem;
 
 std::string FrameName(int frame, const std::string& extension) {
   return fmt::format("{:06d}{}", frame, extension);
-}
-
-void CreateFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw InputError(fmt::format("{}: cannot create the folder: {}", folder.string(),
-                                 error ? error.message() : "there is a file of that name"));
-  }
 }
 
 Trajectory MakeTrajectory(const std::vector<std::int64_t>& times_ns,

@@ -2,11 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "lift_slam/datasets/sequence.h"
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 
@@ -18,13 +18,6 @@ using ::testing::HasSubstr;
 
 class SequenceVideo : public ::testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-
-  void TearDown() override { fs::remove_all(folder_); }
-
   // Grey images that become brighter.
   std::vector<fs::path> Images(int count, int width) const {
     std::vector<fs::path> files;
@@ -35,8 +28,7 @@ class SequenceVideo : public ::testing::Test {
     return files;
   }
 
-  fs::path folder_ =
-      fs::path(::testing::TempDir()) / ("sequence_video_test_" + std::to_string(getpid()));
+  TemporaryFolder folder_;
 };
 
 TEST_F(SequenceVideo, IsReadBackWithItsFramesTimesAndCamera) {
@@ -62,7 +54,7 @@ TEST_F(SequenceVideo, RefusesOddSidesAndUnknownKinds) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("even width and height, the images are 65x48"));
   }
-  EXPECT_THROW(WriteVideo(folder_ / "missing" / "a.mp4", Images(3, 64), 10.0, {}), InputError);
+  EXPECT_THROW(WriteVideo(folder_ / "missing/a.mp4", Images(3, 64), 10.0, {}), InputError);
   EXPECT_THROW(WriteVideo(folder_ / "a.nothing", Images(3, 64), 10.0, {}), InputError);
 }
 

@@ -24,14 +24,6 @@ Rigid3d BodyFromCam() {
 
 using ImageWritten = std::function<void(int)>;
 
-void CreateFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw InputError(fmt::format("{}: cannot create folder: {}", folder.string(), error.message()));
-  }
-}
-
 void WriteImage(const fs::path& path, const GrayImage& image) {
   bool written = false;
   try {

@@ -61,4 +61,16 @@ void WriteTextAtomically(const std::filesystem::path& path, const std::string& t
   WriteFileAtomically(path, [&](std::ostream& stream) { stream << text; });
 }
 
+void CreateFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {
+    throw InputError(fmt::format("{}: is a file, expected a folder", folder.string()));
+  }
+  if (error) {
+    throw InputError(
+        fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
+  }
+}
+
 }  // namespace lift_slam

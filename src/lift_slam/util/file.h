@@ -19,4 +19,7 @@ void WriteFileAtomically(const std::filesystem::path& path,
                          const std::function<void(std::ostream&)>& write);
 void WriteTextAtomically(const std::filesystem::path& path, const std::string& text);
 
+// Makes a folder and those above it; nothing when it is there. Throws InputError when it cannot be.
+void CreateFolder(const std::filesystem::path& folder);
+
 }  // namespace lift_slam

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/blocking_queue.h"
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_range.h"
 #include "lift_slam/util/random.h"
 
 namespace lift_slam {
@@ -62,6 +65,28 @@ TEST(File, FullDiskIsAnInputErrorAndLeavesNoFile) {
   std::filesystem::create_symlink("/dev/full", path.string() + ".tmp");
   EXPECT_THROW(WriteTextAtomically(path, std::string(1 << 20, 'x')), InputError);
   EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(File, AFolderInPlaceOfAFileIsAnInputError) {
+  const TemporaryFolder folder;
+  CreateFolder(folder / "a/b");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
+  EXPECT_NO_THROW(CreateFolder(folder / "a/b"));
+  folder.Write("c", "text");
+  EXPECT_THROW(CreateFolder(folder / "c"), InputError);
+  EXPECT_THROW(CreateFolder(folder / "c/d"), InputError);
+}
+
+TEST(OptionRange, NamesOptionValueAndRange) {
+  EXPECT_NO_THROW(CheckOptionRange("drive.laps", 0.0, 0.0, 100.0));
+  EXPECT_NO_THROW(CheckOptionRange("drive.laps", 100, 0, 100));
+  EXPECT_THROW(CheckOptionRange("drive.laps", std::nan(""), 0.0, 100.0), InputError);
+  try {
+    CheckOptionRange("drive.laps", 101, 0, 100);
+    ADD_FAILURE() << "no InputError";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "option 'drive.laps' is 101, expected a number from 0 to 100");
+  }
 }
 
 TEST(Random, SameSeedSameNumbersAndUniformRange) {

@@ -1,9 +1,7 @@
 #include "lift_slam/features/lift/keypoint_detection.h"
 
-#include <fmt/format.h>
-
 #include "lift_slam/features/lift/patch_sampling.h"
-#include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_range.h"
 
 namespace lift_slam {
 namespace {
@@ -38,13 +36,6 @@ std::vector<LiftKeypoint> FindInStrip(std::span<const ScoreLevel> levels, const 
   return keypoints;
 }
 
-template <class T>
-void CheckRange(std::string_view name, T value, T low, T high) {
-  if (value >= low && value <= high) return;  // false for NaN too
-  throw InputError(
-      fmt::format("option 'lift.detector.{}' is {}, expected {} to {}", name, value, low, high));
-}
-
 }  // namespace
 
 void LiftDetectorOptions::Visit(OptionVisitor& visitor) {
@@ -58,9 +49,9 @@ void LiftDetectorOptions::Visit(OptionVisitor& visitor) {
 }
 
 void LiftDetectorOptions::Check() const {
-  CheckRange("first_level", first_level, 0, kLiftNumLevels - 5);
-  CheckRange("nms_levels", nms_levels, 1, 2);
-  CheckRange("max_edge_ratio", max_edge_ratio, 1.0, 1000.0);
+  CheckOptionRange("lift.detector.first_level", first_level, 0, kLiftNumLevels - 5);
+  CheckOptionRange("lift.detector.nms_levels", nms_levels, 1, 2);
+  CheckOptionRange("lift.detector.max_edge_ratio", max_edge_ratio, 1.0, 1000.0);
 }
 
 std::vector<LiftKeypoint> FindKeypoints(std::span<const ScoreLevel> levels,

@@ -1,21 +1,8 @@
 #include "lift_slam/features/lift/lift_options.h"
 
-#include <fmt/format.h>
-
-#include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_range.h"
 
 namespace lift_slam {
-namespace {
-
-template <class T>
-void CheckRange(std::string_view name, T value, T low, T high) {
-  if (value >= low && value <= high) return;  // false for NaN too
-  throw InputError(
-      fmt::format("option 'lift.{}' is {}, expected {} to {}", name, value, low, high));
-}
-
-}  // namespace
-
 void LiftExtractorOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("max_features", max_features, "features per image, spread over it; 0: all found");
   visitor.Field("candidate_ratio", candidate_ratio,
@@ -34,12 +21,12 @@ void LiftExtractorOptions::Visit(OptionVisitor& visitor) {
 
 void LiftExtractorOptions::Check() const {
   detector.Check();
-  CheckRange("max_features", max_features, 0, 100000);
-  CheckRange("candidate_ratio", candidate_ratio, 1.0, 1e3);
-  CheckRange("sigma_px", sigma_px, 0.01, 100.0);
-  CheckRange("low_threshold", low_threshold, 0.0, 1e6);
-  CheckRange("high_threshold", high_threshold, 0.0, 1e6);
-  CheckRange("num_threads", num_threads, 1, 64);
+  CheckOptionRange("lift.max_features", max_features, 0, 100000);
+  CheckOptionRange("lift.candidate_ratio", candidate_ratio, 1.0, 1e3);
+  CheckOptionRange("lift.sigma_px", sigma_px, 0.01, 100.0);
+  CheckOptionRange("lift.low_threshold", low_threshold, 0.0, 1e6);
+  CheckOptionRange("lift.high_threshold", high_threshold, 0.0, 1e6);
+  CheckOptionRange("lift.num_threads", num_threads, 1, 64);
 }
 
 }  // namespace lift_slam

@@ -1,23 +1,11 @@
 #include "lift_slam/features/orb/orb_options.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_range.h"
 
 namespace lift_slam {
-namespace {
-
-template <class T>
-void CheckRange(std::string_view name, T value, T low, T high) {
-  if (value >= low && value <= high) return;  // false for NaN too
-  throw InputError(fmt::format("option 'orb.{}' is {}, expected {} to {}", name, value, low, high));
-}
-
-}  // namespace
-
 void OrbOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("max_features", max_features,
                 "features per image; 0: by area, 2000 for 1241 x 376, within 500 to 6000");
@@ -33,14 +21,14 @@ void OrbOptions::Visit(OptionVisitor& visitor) {
 }
 
 void OrbOptions::Check() const {
-  CheckRange("max_features", max_features, 0, 100000);
-  CheckRange("num_levels", num_levels, 1, 32);
-  CheckRange("scale_factor", scale_factor, 1.01, 4.0);
-  CheckRange("fast_threshold", fast_threshold, 1, 254);
-  CheckRange("min_fast_threshold", min_fast_threshold, 1, fast_threshold);
-  CheckRange("cell_size_px", cell_size_px, 8, 1000);
-  CheckRange("sigma_px", sigma_px, 0.01, 100.0);
-  CheckRange("num_threads", num_threads, 1, 64);
+  CheckOptionRange("orb.max_features", max_features, 0, 100000);
+  CheckOptionRange("orb.num_levels", num_levels, 1, 32);
+  CheckOptionRange("orb.scale_factor", scale_factor, 1.01, 4.0);
+  CheckOptionRange("orb.fast_threshold", fast_threshold, 1, 254);
+  CheckOptionRange("orb.min_fast_threshold", min_fast_threshold, 1, fast_threshold);
+  CheckOptionRange("orb.cell_size_px", cell_size_px, 8, 1000);
+  CheckOptionRange("orb.sigma_px", sigma_px, 0.01, 100.0);
+  CheckOptionRange("orb.num_threads", num_threads, 1, 64);
 }
 
 int FeatureCount(const OrbOptions& options, int width, int height) {

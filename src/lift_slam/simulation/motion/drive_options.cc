@@ -1,20 +1,9 @@
 #include "lift_slam/simulation/motion/drive_options.h"
 
-#include <fmt/format.h>
-
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_range.h"
 
 namespace lift_slam {
-namespace {
-
-void CheckRange(const char* name, double value, double least, double most) {
-  if (value >= least && value <= most) return;
-  throw InputError(
-      fmt::format("drive.{} is {}, expected a number from {} to {}", name, value, least, most));
-}
-
-}  // namespace
-
 void SpeedOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("top_m_s", top_m_s, "top speed");
   visitor.Field("constant", constant, "always the top speed, whatever the curves");
@@ -24,10 +13,10 @@ void SpeedOptions::Visit(OptionVisitor& visitor) {
 }
 
 void SpeedOptions::Check() const {
-  CheckRange("speed.top_m_s", top_m_s, 0.01, 200.0);
-  CheckRange("speed.max_lateral_m_s2", max_lateral_m_s2, 0.01, 100.0);
-  CheckRange("speed.max_acceleration_m_s2", max_acceleration_m_s2, 0.01, 100.0);
-  CheckRange("speed.max_deceleration_m_s2", max_deceleration_m_s2, 0.01, 100.0);
+  CheckOptionRange("drive.speed.top_m_s", top_m_s, 0.01, 200.0);
+  CheckOptionRange("drive.speed.max_lateral_m_s2", max_lateral_m_s2, 0.01, 100.0);
+  CheckOptionRange("drive.speed.max_acceleration_m_s2", max_acceleration_m_s2, 0.01, 100.0);
+  CheckOptionRange("drive.speed.max_deceleration_m_s2", max_deceleration_m_s2, 0.01, 100.0);
 }
 
 void DriveOptions::Visit(OptionVisitor& visitor) {
@@ -54,24 +43,24 @@ void DriveOptions::Visit(OptionVisitor& visitor) {
 }
 
 void DriveOptions::Check() const {
-  CheckRange("laps", laps, 0.0, 100.0);
-  CheckRange("extra_m", extra_m, 0.0, 1e5);
+  CheckOptionRange("drive.laps", laps, 0.0, 100.0);
+  CheckOptionRange("drive.extra_m", extra_m, 0.0, 1e5);
   if (laps == 0.0 && extra_m == 0.0) {
     throw InputError("drive.laps and drive.extra_m are both 0, expected a way to drive");
   }
-  CheckRange("start_m", start_m, 0.0, 1e6);
-  CheckRange("height_m", height_m, 0.01, 1000.0);
-  CheckRange("pitch_down_deg", pitch_down_deg, -90.0, 90.0);
-  CheckRange("lateral_amplitude_m", lateral_amplitude_m, 0.0, 100.0);
-  CheckRange("lateral_wavelength_m", lateral_wavelength_m, 5.0, 1e5);
-  CheckRange("edge_margin_m", edge_margin_m, 0.0, 100.0);
-  CheckRange("heading_amplitude_deg", heading_amplitude_deg, 0.0, 90.0);
-  CheckRange("heading_wavelength_m", heading_wavelength_m, 5.0, 1e5);
-  CheckRange("road_smoothing_m", road_smoothing_m, 0.5, 50.0);
-  CheckRange("bump_height_m", bump_height_m, 0.0, 1.0);
-  CheckRange("bump_pitch_deg", bump_pitch_deg, 0.0, 20.0);
-  CheckRange("bump_roll_deg", bump_roll_deg, 0.0, 20.0);
-  CheckRange("bump_frequency_hz", bump_frequency_hz, 0.05, 20.0);
+  CheckOptionRange("drive.start_m", start_m, 0.0, 1e6);
+  CheckOptionRange("drive.height_m", height_m, 0.01, 1000.0);
+  CheckOptionRange("drive.pitch_down_deg", pitch_down_deg, -90.0, 90.0);
+  CheckOptionRange("drive.lateral_amplitude_m", lateral_amplitude_m, 0.0, 100.0);
+  CheckOptionRange("drive.lateral_wavelength_m", lateral_wavelength_m, 5.0, 1e5);
+  CheckOptionRange("drive.edge_margin_m", edge_margin_m, 0.0, 100.0);
+  CheckOptionRange("drive.heading_amplitude_deg", heading_amplitude_deg, 0.0, 90.0);
+  CheckOptionRange("drive.heading_wavelength_m", heading_wavelength_m, 5.0, 1e5);
+  CheckOptionRange("drive.road_smoothing_m", road_smoothing_m, 0.5, 50.0);
+  CheckOptionRange("drive.bump_height_m", bump_height_m, 0.0, 1.0);
+  CheckOptionRange("drive.bump_pitch_deg", bump_pitch_deg, 0.0, 20.0);
+  CheckOptionRange("drive.bump_roll_deg", bump_roll_deg, 0.0, 20.0);
+  CheckOptionRange("drive.bump_frequency_hz", bump_frequency_hz, 0.05, 20.0);
   speed.Check();
 }
 

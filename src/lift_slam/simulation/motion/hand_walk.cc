@@ -1,11 +1,10 @@
 #include "lift_slam/simulation/motion/hand_walk.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_range.h"
 
 namespace lift_slam {
 namespace {
@@ -17,12 +16,6 @@ constexpr double kWanderRms = 0.7;
 constexpr double kPitchShare = 0.3;  // a gaze wanders less up and down than to the sides
 
 enum SeedStream : std::uint64_t { kStart = 200, kYaw, kPitch };
-
-void CheckRange(const char* name, double value, double least, double most) {
-  if (value >= least && value <= most) return;
-  throw InputError(
-      fmt::format("walk.{} is {}, expected a number from {} to {}", name, value, least, most));
-}
 
 // Ramanujan's approximation, good to 1e-4 for every shape that has a middle.
 double EllipseLength(const Eigen::Vector2d& radii) {
@@ -54,14 +47,14 @@ void WalkOptions::Visit(OptionVisitor& visitor) {
 }
 
 void WalkOptions::Check() const {
-  CheckRange("laps", laps, 1e-3, 100.0);
-  CheckRange("speed_m_s", speed_m_s, 1e-3, 100.0);
-  CheckRange("height_m", height_m, 0.0, 1e4);
-  CheckRange("reach", reach, 0.01, 1.0);
-  CheckRange("bobbing_m", bobbing_m, 0.0, 1.0);
-  CheckRange("step_frequency_hz", step_frequency_hz, 0.01, 20.0);
-  CheckRange("look_around_deg", look_around_deg, 0.0, 180.0);
-  CheckRange("look_period_s", look_period_s, 0.1, 1e4);
+  CheckOptionRange("walk.laps", laps, 1e-3, 100.0);
+  CheckOptionRange("walk.speed_m_s", speed_m_s, 1e-3, 100.0);
+  CheckOptionRange("walk.height_m", height_m, 0.0, 1e4);
+  CheckOptionRange("walk.reach", reach, 0.01, 1.0);
+  CheckOptionRange("walk.bobbing_m", bobbing_m, 0.0, 1.0);
+  CheckOptionRange("walk.step_frequency_hz", step_frequency_hz, 0.01, 20.0);
+  CheckOptionRange("walk.look_around_deg", look_around_deg, 0.0, 180.0);
+  CheckOptionRange("walk.look_period_s", look_period_s, 0.1, 1e4);
 }
 
 HandWalk::HandWalk(const Eigen::AlignedBox3d& box, const WalkOptions& options, std::uint64_t seed)

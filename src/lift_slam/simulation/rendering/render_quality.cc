@@ -1,22 +1,9 @@
-#include <fmt/format.h>
-
-#include <cmath>
 #include <string_view>
 
 #include "lift_slam/simulation/rendering/scene_renderer.h"
-#include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_range.h"
 
 namespace lift_slam {
-namespace {
-
-void RequireRange(std::string_view name, double value, double lowest, double highest) {
-  if (std::isfinite(value) && value >= lowest && value <= highest) return;
-  throw InputError(
-      fmt::format("{} is {}, expected a number from {} to {}", name, value, lowest, highest));
-}
-
-}  // namespace
-
 void RenderQuality::Visit(OptionVisitor& visitor) {
   visitor.Field("supersampling", supersampling, "samples a pixel and direction, 1 to 8");
   visitor.Field("anisotropy", anisotropy, "of the texture filter, 1 to 16");
@@ -30,13 +17,13 @@ void RenderQuality::Visit(OptionVisitor& visitor) {
 }
 
 void RenderQuality::Check() const {
-  RequireRange("supersampling", supersampling, 1, 8);
-  RequireRange("anisotropy", anisotropy, 1, 16);
-  RequireRange("near_m", near_m, 1e-3, 1e5);
-  RequireRange("far_m", far_m, 1.001 * near_m, 1e7);
-  RequireRange("fog_visibility_m", fog_visibility_m, 0.0, 1e7);
-  RequireRange("sun_elevation_deg", sun_elevation_deg, -90.0, 90.0);
-  RequireRange("sun_azimuth_deg", sun_azimuth_deg, -360.0, 360.0);
+  CheckOptionRange("quality.supersampling", supersampling, 1, 8);
+  CheckOptionRange("quality.anisotropy", anisotropy, 1, 16);
+  CheckOptionRange("quality.near_m", near_m, 1e-3, 1e5);
+  CheckOptionRange("quality.far_m", far_m, 1.001 * near_m, 1e7);
+  CheckOptionRange("quality.fog_visibility_m", fog_visibility_m, 0.0, 1e7);
+  CheckOptionRange("quality.sun_elevation_deg", sun_elevation_deg, -90.0, 90.0);
+  CheckOptionRange("quality.sun_azimuth_deg", sun_azimuth_deg, -360.0, 360.0);
 }
 
 }  // namespace lift_slam

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <thread>
 
 #include "lift_slam/simulation/rendering/downsampling.h"
 #include "lift_slam/simulation/rendering/gl_context.h"
@@ -10,6 +9,7 @@
 #include "lift_slam/simulation/rendering/lens_resampling.h"
 #include "lift_slam/simulation/rendering/render_target.h"
 #include "lift_slam/simulation/rendering/scene_drawing.h"
+#include "lift_slam/util/system_info.h"
 
 namespace lift_slam {
 namespace {
@@ -112,8 +112,6 @@ RenderedView SceneRenderer::Render(const Rigid3d& cam_from_world) {
   return implementation_->Develop();
 }
 
-int RecommendedRendererThreads() {
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 2);
-}
+int RecommendedRendererThreads() { return std::min(NumHardwareThreads(), 2); }
 
 }  // namespace lift_slam

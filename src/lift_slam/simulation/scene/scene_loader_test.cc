@@ -47,10 +47,10 @@ class Torcs {
     options_.torcs_folder = files_.path().string();
   }
   LoadedScene Load(const std::string& name = "hill") const { return LoadScene(name, options_); }
-  const SceneTestFolder& files() const { return files_; }
+  const TemporaryFolder& files() const { return files_; }
 
  private:
-  SceneTestFolder files_;
+  TemporaryFolder files_;
   SceneLoaderOptions options_;
 };
 
@@ -156,7 +156,7 @@ TEST(SceneLoader, UnknownTrackListsTheKnownOnes) {
 }
 
 TEST(SceneLoader, MissingTorcsDataNamesThePackage) {
-  const SceneTestFolder empty;
+  const TemporaryFolder empty;
   SceneLoaderOptions options;
   options.torcs_folder = empty.path().string();
   EXPECT_THAT(InputErrorOf([&] { LoadScene("dirt-3", options); }), HasSubstr("torcs-data"));
@@ -182,7 +182,7 @@ std::string CubeFace(const std::string& material_file) {
 }
 
 TEST(SceneLoader, ObjIsTurnedToZUp) {
-  const SceneTestFolder files;
+  const TemporaryFolder files;
   files.Write("wall.mtl", "newmtl wall\nKd 0.5 0.6 0.7\nmap_Kd wall.rgb\n");
   files.Write("wall.rgb", SgiBytes(1, 1, 3, "\x01\x02\x03"));
   const std::string path = files.Write("wall.obj", CubeFace("wall.mtl")).string();
@@ -206,7 +206,7 @@ TEST(SceneLoader, ObjIsTurnedToZUp) {
 }
 
 TEST(SceneLoader, ObjWithoutTexturesAndBrokenFilesAreRefused) {
-  const SceneTestFolder files;
+  const TemporaryFolder files;
   files.Write("wall.mtl", "newmtl wall\nKd 0.5 0.6 0.7\n");
   const std::string plain = files.Write("wall.obj", CubeFace("wall.mtl")).string();
   EXPECT_THAT(InputErrorOf([&] { LoadScene(plain); }), HasSubstr("a mesh without textures"));
@@ -218,7 +218,7 @@ TEST(SceneLoader, ObjWithoutTexturesAndBrokenFilesAreRefused) {
 
 // One triangle with a 1x1 PNG in the file itself, in a node that moves it by 5 along x.
 TEST(SceneLoader, GltfWithEmbeddedTextureAndMovedNode) {
-  const SceneTestFolder files;
+  const TemporaryFolder files;
   const std::string path =
       files
           .Write("a.gltf",

@@ -1,38 +1,13 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/input_error.h"
 
 namespace lift_slam {
-
-// A folder of its own for a test's files, removed at the end.
-class SceneTestFolder {
- public:
-  SceneTestFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "scene_test_XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~SceneTestFolder() { std::filesystem::remove_all(path_); }
-  SceneTestFolder(const SceneTestFolder&) = delete;
-  SceneTestFolder& operator=(const SceneTestFolder&) = delete;
-
-  std::filesystem::path Write(const std::string& name, const std::string& content) const {
-    const std::filesystem::path path = path_ / name;
-    std::filesystem::create_directories(path.parent_path());
-    std::ofstream(path, std::ios::binary) << content;
-    return path;
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // What the InputError says that `action` throws; a failure when it throws none.
 template <class Action>
