@@ -83,7 +83,7 @@ class PairTriangulator {
 }  // namespace
 
 std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOptions& options,
-                                     Map& map) {
+                                     float max_distance, Map& map) {
   std::vector<MapPointId> created;
   const auto depth = MeasureDepth(map, keyframe_id);
   if (!depth) return created;
@@ -97,8 +97,8 @@ std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOp
     const double baseline = (keyframe.Center() - other.Center()).norm();
     if (baseline < options.min_baseline_ratio * depth->median) continue;
     const PairTriangulator triangulator(map, keyframe, other, options);
-    for (const FeatureMatch& match :
-         MatchAlongEpipolarLines(keyframe, other, depth->near, map.view(), options.epipolar)) {
+    for (const FeatureMatch& match : MatchAlongEpipolarLines(
+             keyframe, other, depth->near, max_distance, map.view(), options.epipolar)) {
       const auto position = triangulator.Triangulate(match);
       if (!position) continue;
       const MapPointId point = map.AddPoint(*position, keyframe_id);

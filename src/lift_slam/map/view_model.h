@@ -13,8 +13,9 @@ struct ViewModel {
   PinholeIntrinsics pinhole;
   double min_x = 0.0, max_x = 0.0, min_y = 0.0, max_y = 0.0;  // undistorted pixels covered
   ScaleLevels levels;
-  MatchingThresholds thresholds;
-  std::vector<float> scale;              // by level, >= 1
+  ThresholdRange thresholds;
+  int level_tolerance = 1;   // a point is looked for so many levels above and below its own
+  std::vector<float> scale;  // by level, >= 1
   std::vector<double> inverse_variance;  // by level, 1 / px^2; sigma grows with the scale
 
   bool Covers(const Eigen::Vector2d& pixel) const {
@@ -24,6 +25,6 @@ struct ViewModel {
 
 // Bounds are those of the undistorted image.
 ViewModel MakeViewModel(const PinholeIntrinsics& pinhole, const Eigen::Vector4d& min_max_x_y,
-                        const ScaleLevels& levels, const MatchingThresholds& thresholds);
+                        const ScaleLevels& levels, const ThresholdRange& thresholds);
 
 }  // namespace lift_slam

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "lift_slam/features/orb/orb_extractor.h"
+#include "lift_slam/features/feature_options.h"
 #include "lift_slam/slam/slam_system.h"
 
 namespace lift_slam {
@@ -11,7 +11,7 @@ namespace {
 using NextFrame = std::function<std::optional<InputFrame>()>;
 
 RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const NextFrame& next) {
-  FramePreparer preparer(camera, CreateOrbExtractor(options.slam.orb));
+  FramePreparer preparer(camera, CreateFeatureExtractor(options.slam.features));
   SlamSystem system(camera, preparer.view(), options.slam);
   RunPipeline(
       options.mode,

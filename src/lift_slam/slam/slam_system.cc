@@ -8,6 +8,7 @@ namespace lift_slam {
 SlamSystem::SlamSystem(const Camera& camera, std::shared_ptr<const ViewModel> view,
                        const SlamOptions& options)
     : camera_(camera), view_(std::move(view)), options_(options) {
+  options_.matching.Check();
   BeginInitializing();
 }
 
@@ -74,6 +75,10 @@ void SlamSystem::ProcessTracking(const PreparedFrame& prepared, FrameRecord& rec
   record.refusal = step.tracking.refusal;
   record.num_matches = step.tracking.num_matches;
   record.num_inliers = step.tracking.num_inliers;
+  record.low_threshold = step.tracking.thresholds.low;
+  record.high_threshold = step.tracking.thresholds.high;
+  record.num_last_matches = step.tracking.num_last_matches;
+  record.num_last_outliers = step.tracking.num_last_outliers;
   record.track_ms = step.track_ms;
   record.map_ms = step.map_ms;
   record_.stage_times_ms["track"].push_back(step.track_ms);

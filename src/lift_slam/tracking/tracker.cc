@@ -45,12 +45,13 @@ void Tracker::KeyFrameMapped(const Map& map, KeyFrameId keyframe) {
 
 TrackingResult Tracker::Track(Map& map, Frame& frame) {
   TrackingResult result;
+  result.thresholds = Thresholds(map);
   ++frames_since_keyframe_;
   if (frame.features->size() < kMinFeatures) {
     result.refusal = FrameRefusal::kTooFewFeatures;
   } else {
     bool found = last_was_tracked_ &&
-                 (TrackWithMotionModel(map, frame) || TrackReferenceKeyFrame(map, frame));
+                 (TrackWithMotionModel(map, frame, result) || TrackReferenceKeyFrame(map, frame));
     if (found) found = TrackLocalMap(map, frame, /*wide=*/false, result) >= options_.min_inliers;
     if (!found && Recover(map, frame)) {
       result.recovered = true;
@@ -65,8 +66,10 @@ TrackingResult Tracker::Track(Map& map, Frame& frame) {
     ClearMatches(frame);
     last_was_tracked_ = false;
     velocity_.reset();
+    adaptive_.looseness = 1.0;
     return result;
   }
+  adaptive_ = Adapt(adaptive_, matching_, result.num_last_matches, result.num_last_outliers);
   result.reference = reference_;
   result.needs_keyframe = ShouldBecomeKeyFrame(map, result.num_inliers, reference_,
                                                frames_since_keyframe_, options_.keyframe);
@@ -81,16 +84,26 @@ void Tracker::Remember(const Frame& frame) {
   last_was_tracked_ = true;
 }
 
-bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame) const {
+bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) const {
   frame.cam_from_world = velocity_ ? *velocity_ * last_.cam_from_world : last_.cam_from_world;
   const auto radius = static_cast<float>(options_.search_radius_px);
-  int matches = MatchFromLastFrame(map, last_, radius, frame);
+  int matches = MatchFromLastFrame(map, last_, radius, result.thresholds.high, frame);
+  if (matches < options_.min_matches) result.thresholds = LoosestThresholds(map);
   for (int widening = 0; widening < 2 && matches < options_.min_matches; ++widening) {
     ClearMatches(frame);
-    matches = MatchFromLastFrame(map, last_, radius * static_cast<float>(2 << widening), frame);
+    matches = MatchFromLastFrame(map, last_, radius * static_cast<float>(2 << widening),
+                                 result.thresholds.high, frame);
   }
-  return matches >= options_.min_matches &&
-         OptimizeFramePose(map, options_.pose, frame) >= options_.min_inliers_first;
+  if (matches < options_.min_matches) return false;
+  const int inliers = OptimizeFramePose(map, options_.pose, frame);
+  if (inliers < options_.min_inliers_first) return false;
+  result.num_last_matches = matches;
+  result.num_last_outliers = matches - inliers;
+  return true;
+}
+
+MatchingThresholds Tracker::LoosestThresholds(const Map& map) const {
+  return AdaptiveThresholds{1.0}.In(map.view().thresholds, matching_.thresholds);
 }
 
 bool Tracker::TrackReferenceKeyFrame(const Map& map, Frame& frame) const {
@@ -113,7 +126,10 @@ bool Tracker::Recover(const Map& map, Frame& frame) const {
 
 bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const {
   ClearMatches(frame);
-  if (MatchFromKeyFrame(map, map.keyframe(keyframe), frame) < options_.min_matches) return false;
+  const float max_distance = LoosestThresholds(map).low;
+  if (MatchFromKeyFrame(map, map.keyframe(keyframe), max_distance, frame) < options_.min_matches) {
+    return false;
+  }
   const ViewModel& view = map.view();
   std::vector<PointMatch> matches;
   for (int i = 0; i < frame.features->size(); ++i) {
@@ -133,8 +149,8 @@ bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) con
 int Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result) {
   const LocalMap local = CollectLocalMap(map, frame, options_.max_local_keyframes);
   if (local.reference.valid()) reference_ = local.reference;
-  const LocalMatchResult matched =
-      MatchLocalPoints(map, local.points, wide ? kWideRadiusFactor : 1.0F, frame);
+  const LocalMatchResult matched = MatchLocalPoints(
+      map, local.points, wide ? kWideRadiusFactor : 1.0F, result.thresholds.high, frame);
   result.num_matches = frame.CountMatches();
   result.num_inliers = OptimizeFramePose(map, options_.pose, frame);
   CountSightings(matched.visible, frame, map);

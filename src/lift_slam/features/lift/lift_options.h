@@ -27,8 +27,8 @@ struct LiftExtractorOptions {
   // 0: from what was measured with the weights, or the paper's of KITTI, 2 and 3.
   double low_threshold = 0.0;
   double high_threshold = 0.0;
-  // Threads, the caller included; the result does not depend on it.
-  int num_threads = 1;
+  // Threads, the caller included; 0: all that the machine has. The result does not depend on it.
+  int num_threads = 0;
 
   void Visit(OptionVisitor& visitor);
   // Throws InputError naming the option that is out of range.
