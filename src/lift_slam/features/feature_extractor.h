@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "lift_slam/features/descriptors.h"
@@ -45,6 +46,8 @@ class FeatureExtractor {
   virtual const ScaleLevels& scale_levels() const = 0;
   virtual const DescriptorKind& descriptor_kind() const = 0;
   virtual const ThresholdRange& thresholds() const = 0;
+  // What the user should know, a sentence: such as an option that this machine cannot follow.
+  virtual std::string Notice() const { return {}; }
 };
 
 }  // namespace lift_slam

@@ -48,6 +48,10 @@ RunRecord RunSynthetic(const SyntheticSequenceOptions& sequence_options,
   });
 }
 
+RunRecord RunSynthetic(const SyntheticSequenceOptions& sequence) {
+  return RunSynthetic(sequence, TestRunOptions());
+}
+
 RunRecord RunSequence(std::unique_ptr<Sequence> sequence, const TestRunOptions& options) {
   return RunFrames(*sequence->info().camera, options, [&]() -> std::optional<InputFrame> {
     auto frame = sequence->Next();

@@ -100,6 +100,12 @@ FeatureSet LiftExtractor::Extract(const GrayImage& image) {
   return features;
 }
 
+std::string LiftExtractor::Notice() const {
+  const nn::PrecisionChoice& choice = precision();
+  if (choice.reason.empty()) return {};
+  return fmt::format("LIFT's descriptors in {}: {}", nn::Name(choice.used), choice.reason);
+}
+
 std::vector<LiftKeypoint> LiftExtractor::DetectSpread(const GrayImage& image) {
   std::vector<LiftKeypoint> all = detector_.Detect(image, networks_);
   const double num_candidates = options_.max_features * options_.candidate_ratio;

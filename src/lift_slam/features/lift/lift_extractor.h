@@ -26,6 +26,9 @@ class LiftExtractor : public FeatureExtractor {
   const DescriptorKind& descriptor_kind() const override { return kind_; }
   const ThresholdRange& thresholds() const override { return thresholds_; }
 
+  // When the descriptor runs in another precision than asked for.
+  std::string Notice() const override;
+
   // Of the descriptor: what the CPU runs, and why it is not what was asked for.
   const nn::PrecisionChoice& precision() const { return networks_.precision(); }
 
