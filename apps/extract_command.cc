@@ -11,6 +11,7 @@
 
 #include "apps/npz_file.h"
 #include "apps/output_folder.h"
+#include "apps/pair_features.h"
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
@@ -22,7 +23,7 @@ namespace {
 struct ExtractArguments {
   std::vector<std::filesystem::path> images;
   std::filesystem::path weights, output;
-  std::string precision = "float32";
+  std::string precision{nn::Name(LiftExtractorOptions().precision)};
   LiftExtractorOptions options;
 };
 
@@ -35,13 +36,6 @@ void CheckNames(const std::vector<std::filesystem::path>& images) {
                                    image.stem().string()));
     }
   }
-}
-
-GrayImage ReadImage(const std::filesystem::path& path) {
-  std::string why;
-  const std::optional<GrayImage> image = ReadGrayImage(path, &why);
-  if (!image) throw InputError(fmt::format("image '{}' cannot be read: {}", path.string(), why));
-  return *image;
 }
 
 void WriteFeatures(const FeatureSet& features, const ScaleLevels& levels,
@@ -71,9 +65,9 @@ void WriteFeatures(const FeatureSet& features, const ScaleLevels& levels,
 
 void ExtractImage(const std::filesystem::path& path, const std::filesystem::path& output,
                   FeatureExtractor& extractor) {
-  const GrayImage image = ReadImage(path);
+  const GrayImage image = ReadImageOrThrow(path);
   const auto start = std::chrono::steady_clock::now();
-  const FeatureSet features = extractor.Extract(image);
+  const FeatureSet features = ExtractNamed(extractor, image, path);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const std::string name = path.stem().string();
   WriteFeatures(features, extractor.scale_levels(), output / (name + ".npz"));
@@ -90,10 +84,7 @@ void Extract(ExtractArguments arguments) {
     throw InputError(fmt::format("the weights '{}' have no orientation network; say --upright",
                                  arguments.weights.string()));
   }
-  for (const nn::Precision precision :
-       {nn::Precision::kFloat32, nn::Precision::kBfloat16, nn::Precision::kInt8}) {
-    if (nn::Name(precision) == arguments.precision) arguments.options.precision = precision;
-  }
+  arguments.options.precision = nn::ParsePrecision(arguments.precision);
   LiftExtractor extractor(weights, arguments.options);
   if (!extractor.precision().reason.empty()) {
     std::cout << fmt::format("descriptors in {}: {}\n", nn::Name(extractor.precision().used),
