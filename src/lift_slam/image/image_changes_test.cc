@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "lift_slam/image/gamma.h"
+#include "lift_slam/image/noise.h"
 #include "lift_slam/image/warp.h"
 #include "lift_slam/util/check.h"
 
@@ -33,6 +35,16 @@ TEST(WarpImage, CarriesPixelsAlongTheHomography) {
   const GrayImage warped = WarpImage(Ramp(), shift);
   EXPECT_EQ(warped.width(), 256);
   EXPECT_EQ(warped.row(5)[110], 100);
+}
+
+TEST(AddNoise, HasTheDeviationAskedFor) {
+  Random random(1);
+  const GrayImage noisy = AddNoise(Ramp(), 3.0, random);
+  double sum = 0.0;
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 32; x < 224; ++x) sum += std::pow(noisy.row(y)[x] - x, 2);
+  }
+  EXPECT_NEAR(std::sqrt(sum / (32 * 192)), 3.0, 0.15);
 }
 
 }  // namespace
