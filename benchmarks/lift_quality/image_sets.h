@@ -10,7 +10,8 @@
 
 namespace lift_slam {
 
-// Pairs of photographs of one kind; both by the same camera.
+// Pairs of photographs of one kind; both by the same camera. An image that several sets hold has
+// the same pixels in memory.
 struct ImageSet {
   std::string name;
   Camera camera;
@@ -18,12 +19,9 @@ struct ImageSet {
   std::vector<std::pair<GrayImage, GrayImage>> pairs;
 };
 
-// `count` pairs spread over KITTI 00, `skip` frames apart.
-ImageSet KittiPairs(const std::filesystem::path& data, int count, int skip, double gamma);
-// The same of 7-Scenes RedKitchen.
-ImageSet KitchenPairs(const std::filesystem::path& data, int count, int skip);
-
-// The sets of the tables; those without data are left out, with a word on standard error.
+// The sets of the tables, `count` pairs each: KITTI 00 1 and 5 frames apart, the latter also with
+// gamma 0.25, 0.5, 2 and 4; RedKitchen 10 frames apart. Those without data are left out, with a
+// word on standard error.
 std::vector<ImageSet> RealImageSets(const std::filesystem::path& data, int count);
 
 }  // namespace lift_slam

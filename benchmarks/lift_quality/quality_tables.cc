@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 
 #include "lift_slam/features/image_pair.h"
@@ -22,6 +23,13 @@ namespace {
 
 std::string Row(const std::vector<std::string>& cells) {
   return fmt::format("| {} |\n", fmt::join(cells, " | "));
+}
+
+// Also on standard error: a table takes minutes.
+std::string RowShown(const std::vector<std::string>& cells) {
+  std::string row = Row(cells);
+  fmt::print(stderr, "{}", row);
+  return row;
 }
 
 std::string Header(const std::vector<std::string>& names) {
@@ -77,8 +85,23 @@ MakeExtractor Baseline(const std::string& name, const QualityOptions& options) {
   };
 }
 
+// Extracts each image once: sets share their first images.
+class FeatureCache {
+ public:
+  explicit FeatureCache(FeatureExtractor& extractor) : extractor_(extractor) {}
+  const FeatureSet& Of(const GrayImage& image) {
+    const auto [entry, is_new] = features_.try_emplace(image.row(0));
+    if (is_new) entry->second = extractor_.Extract(image);
+    return entry->second;
+  }
+
+ private:
+  FeatureExtractor& extractor_;
+  std::map<const std::uint8_t*, FeatureSet> features_;
+};
+
 // Mean counts over the pairs of a set: "inliers (of the best 100)".
-std::string MeanInliers(const ImageSet& set, FeatureExtractor& extractor) {
+std::string MeanInliers(const ImageSet& set, FeatureExtractor& extractor, FeatureCache& cache) {
   double all = 0.0, best = 0.0;
   for (const auto& [a, b] : set.pairs) {
     const ImagePairResult result = MatchImagePair(
@@ -95,9 +118,10 @@ std::string MeanInliers(const ImageSet& set, FeatureExtractor& extractor) {
 std::string InlierRow(const std::string& name, std::span<const ImageSet> sets,
                       const MakeExtractor& make) {
   const std::unique_ptr<FeatureExtractor> extractor = make();
+  FeatureCache cache(*extractor);
   std::vector<std::string> cells{name};
-  for (const ImageSet& set : sets) cells.push_back(MeanInliers(set, *extractor));
-  return Row(cells);
+  for (const ImageSet& set : sets) cells.push_back(MeanInliers(set, *extractor, cache));
+  return RowShown(cells);
 }
 
 std::string DistanceCell(const DistanceSamples& samples) {
@@ -106,11 +130,19 @@ std::string DistanceCell(const DistanceSamples& samples) {
                          static_cast<double>(std::max<std::size_t>(1, samples.matching.size())));
 }
 
+constexpr int kPairsPerImage = 300;  // of keypoints
+
+// By the pixels of both images.
+using FoundPairs = std::map<std::pair<const std::uint8_t*, const std::uint8_t*>, KeypointPairs>;
+
 // The same pairs whatever the gamma: it changes the second images after SIFT has matched them.
-std::vector<KeypointPairs> PairsOf(const ImageSet& set) {
+std::vector<KeypointPairs> PairsOf(const ImageSet& set, FoundPairs& found) {
   std::vector<KeypointPairs> pairs;
   for (const auto& [a, b] : set.pairs) {
-    pairs.push_back(PairsBySift(a, b, &set.camera, 500));
+    const auto key = std::pair(a.row(0), b.row(0));
+    const auto [entry, is_new] = found.try_emplace(key);
+    if (is_new) entry->second = PairsBySift(a, b, &set.camera, kPairsPerImage);
+    pairs.push_back(entry->second);
     pairs.back().image_b = ApplyGamma(b, set.gamma);
   }
   return pairs;
@@ -178,7 +210,7 @@ std::string RepeatabilityRow(const std::string& name, std::span<const ImageSet> 
       cells.push_back(fmt::format("{:.3f}", sum / static_cast<double>(set.pairs.size())));
     }
   }
-  return Row(cells);
+  return RowShown(cells);
 }
 
 KeypointFinder FinderOf(const std::shared_ptr<FeatureExtractor>& extractor) {
@@ -195,10 +227,11 @@ KeypointFinder FinderOf(const std::shared_ptr<FeatureExtractor>& extractor) {
 
 std::string DescriptorTable(std::span<const NamedWeights> all, std::span<const ImageSet> sets,
                             const QualityOptions& options) {
+  FoundPairs found_pairs;
   std::vector<std::vector<KeypointPairs>> pairs;
   std::vector<std::string> counts{"pairs of keypoints"};
   for (const ImageSet& set : sets) {
-    pairs.push_back(PairsOf(set));
+    pairs.push_back(PairsOf(set, found_pairs));
     std::size_t count = 0;
     for (const KeypointPairs& found : pairs.back()) count += found.in_a.size();
     counts.push_back(std::to_string(count));
@@ -209,7 +242,7 @@ std::string DescriptorTable(std::span<const NamedWeights> all, std::span<const I
     for (const auto& of_set : pairs) {
       cells.push_back(DistanceCell(Distances(of_set, variant, options)));
     }
-    table += Row(cells);
+    table += RowShown(cells);
   }
   return table;
 }
