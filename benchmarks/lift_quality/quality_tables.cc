@@ -104,8 +104,8 @@ class FeatureCache {
 std::string MeanInliers(const ImageSet& set, FeatureExtractor& extractor, FeatureCache& cache) {
   double all = 0.0, best = 0.0;
   for (const auto& [a, b] : set.pairs) {
-    const ImagePairResult result = MatchImagePair(
-        extractor.Extract(a), extractor.Extract(ApplyGamma(b, set.gamma)), &set.camera, {});
+    const ImagePairResult result =
+        MatchImagePair(cache.Of(a), extractor.Extract(ApplyGamma(b, set.gamma)), &set.camera, {});
     all += result.num_inliers;
     const std::size_t count = std::min<std::size_t>(100, result.matches.size());
     best += static_cast<double>(
