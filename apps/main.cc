@@ -11,6 +11,7 @@
 #include "apps/exit_code.h"
 #include "apps/extract_command.h"
 #include "apps/info_command.h"
+#include "apps/match_command.h"
 #include "apps/render_command.h"
 #include "apps/report_command.h"
 #include "apps/run_command.h"
@@ -24,8 +25,9 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
-    AddRunCommand,     AddEvaluateCommand, AddReportCommand, AddRenderCommand, AddSynthesizeCommand,
-    AddExtractCommand, AddWeightsCommand,  AddConfigCommand, AddInfoCommand,
+    AddRunCommand,        AddEvaluateCommand, AddReportCommand, AddRenderCommand,
+    AddSynthesizeCommand, AddExtractCommand,  AddMatchCommand,  AddWeightsCommand,
+    AddConfigCommand,     AddInfoCommand,
 };
 
 void AddEverything(CLI::App& app) {
