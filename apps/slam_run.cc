@@ -6,7 +6,7 @@
 #include "apps/progress_bar.h"
 #include "apps/stop_signal.h"
 #include "lift_slam/datasets/prefetching_sequence.h"
-#include "lift_slam/features/feature_options.h"
+#include "lift_slam/slam/feature_options.h"
 #include "lift_slam/slam/pipeline.h"
 #include "lift_slam/util/timer.h"
 

@@ -47,7 +47,7 @@ void BM_MapKeyFrame(benchmark::State& state) {
     const auto map = synthetic.MakeMap();
     LocalMapper mapper({}, {});
     const double start_s = ThreadSeconds();
-    report = mapper.Process(map->AddKeyFrame(next), *map);
+    report = mapper.Process(map->AddKeyFrame(next), 50.0F, *map);
     state.SetIterationTime(ThreadSeconds() - start_s);
   }
   state.counters["points_created"] = report.points_created;

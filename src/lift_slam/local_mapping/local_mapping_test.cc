@@ -106,7 +106,7 @@ TEST_F(LocalMappingTest, OneStepRepairsADisturbedPoseAndMakesPoints) {
   third.cam_from_world = CameraAt(0.73);
   const KeyFrameId id = map_.AddKeyFrame(third);
   LocalMapper mapper(options_, {});
-  const MappingReport report = mapper.Process(id, map_);
+  const MappingReport report = mapper.Process(id, 50.0F, map_);
   EXPECT_TRUE(report.bundle.solver.usable) << report.bundle.solver.message;
   EXPECT_GT(report.points_created, 50);
   // The scale is free to move a little: compare the ratio of the baselines.

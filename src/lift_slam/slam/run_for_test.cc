@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "lift_slam/features/feature_options.h"
+#include "lift_slam/slam/feature_options.h"
 #include "lift_slam/slam/slam_system.h"
 
 namespace lift_slam {

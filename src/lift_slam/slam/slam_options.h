@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-#include "lift_slam/features/feature_options.h"
 #include "lift_slam/local_mapping/local_mapper_options.h"
 #include "lift_slam/matching/adaptive_thresholds.h"
 #include "lift_slam/optimization/bundle_adjustment.h"
+#include "lift_slam/slam/feature_options.h"
 #include "lift_slam/tracking/map_initializer.h"
 #include "lift_slam/tracking/tracker_options.h"
 

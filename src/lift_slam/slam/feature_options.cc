@@ -1,4 +1,4 @@
-#include "lift_slam/features/feature_options.h"
+#include "lift_slam/slam/feature_options.h"
 
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/features/orb/orb_extractor.h"
