@@ -99,7 +99,7 @@ RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& opti
   slam.seed = options.seed;
   auto extractor = CreateFeatureExtractor(slam.features);
   if (const std::string notice = extractor->Notice(); !notice.empty()) log.Warning(notice);
-  FramePreparer preparer(*info.camera, std::move(extractor));
+  FramePreparer preparer(*info.camera, std::move(extractor), slam.alignment);
   SlamSystem system(*info.camera, preparer.view(), slam);
   const StopSignal stop;
   RunObserver observer(folder, info.num_frames, system, log);

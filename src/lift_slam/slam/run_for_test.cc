@@ -11,7 +11,8 @@ namespace {
 using NextFrame = std::function<std::optional<InputFrame>()>;
 
 RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const NextFrame& next) {
-  FramePreparer preparer(camera, CreateFeatureExtractor(options.slam.features));
+  FramePreparer preparer(camera, CreateFeatureExtractor(options.slam.features),
+                         options.slam.alignment);
   SlamSystem system(camera, preparer.view(), options.slam);
   RunPipeline(
       options.mode,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "lift_slam/image/patch_alignment.h"
 #include "lift_slam/local_mapping/local_mapper_options.h"
 #include "lift_slam/matching/adaptive_thresholds.h"
 #include "lift_slam/optimization/bundle_adjustment.h"
@@ -18,6 +19,7 @@ struct SlamOptions {
   bool final_bundle_adjustment = true;  // of every kept map, when the input has ended
   FeatureOptions features;
   MatchingOptions matching;
+  PatchAlignmentOptions alignment;
   MapInitializerOptions initializer;
   TrackerOptions tracker;
   LocalMapperOptions local_mapper;
@@ -37,6 +39,7 @@ struct SlamOptions {
     visitor.Group("orb", features.orb, "ORB features");
     visitor.Group("lift", features.lift, "LIFT features");
     visitor.Group("matching", matching, "which descriptors match");
+    visitor.Group("alignment", alignment, "sub-pixel alignment of matched features");
     visitor.Group("initializer", initializer, "how a map is begun");
     visitor.Group("tracker", tracker, "image to pose");
     visitor.Group("local_mapper", local_mapper, "keyframe to map");
