@@ -97,7 +97,7 @@ RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& opti
   }
   SlamOptions slam = options.slam;
   slam.seed = options.seed;
-  FramePreparer preparer(*info.camera, CreateOrbExtractor(slam.orb));
+  FramePreparer preparer(*info.camera, CreateOrbExtractor(slam.orb), slam.alignment);
   SlamSystem system(*info.camera, preparer.view(), slam);
   const StopSignal stop;
   RunObserver observer(folder, info.num_frames, system, log);

@@ -6,6 +6,8 @@
 
 #include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/geometry/triangulation.h"
+#include "lift_slam/matching/observation_alignment.h"
+#include "lift_slam/util/check.h"
 
 namespace lift_slam {
 namespace {
@@ -41,22 +43,31 @@ class PairTriangulator {
 
   // World position of the match's point; nothing when a check refuses it.
   std::optional<Eigen::Vector3d> Triangulate(const FeatureMatch& match) const {
+    return Triangulate(match, b_.features->pixel(match.b));
+  }
+
+  // The same with another pixel in b.
+  std::optional<Eigen::Vector3d> Triangulate(const FeatureMatch& match,
+                                             const Eigen::Vector2d& pixel_b) const {
     const Eigen::Vector3d ray_a = view_.pinhole.Unproject(a_.features->pixel(match.a));
-    const Eigen::Vector3d ray_b = view_.pinhole.Unproject(b_.features->pixel(match.b));
+    const Eigen::Vector3d ray_b = view_.pinhole.Unproject(pixel_b);
     const double cosine = (b_from_a_.rotation * ray_a).dot(ray_b) / (ray_a.norm() * ray_b.norm());
     if (cosine <= 0.0 || cosine >= max_cosine_) return std::nullopt;
     const auto in_a = TriangulatePoint(b_from_a_, ray_a.head<2>(), ray_b.head<2>());
-    if (!in_a || !ReprojectsWell(*in_a, a_, match.a)) return std::nullopt;
+    if (!in_a || !ReprojectsWell(*in_a, a_, match.a, a_.features->pixel(match.a))) {
+      return std::nullopt;
+    }
     const Eigen::Vector3d in_b = b_from_a_ * *in_a;
-    if (!ReprojectsWell(in_b, b_, match.b) || !ScaleFits(*in_a, in_b, match)) return std::nullopt;
+    if (!ReprojectsWell(in_b, b_, match.b, pixel_b) || !ScaleFits(*in_a, in_b, match))
+      return std::nullopt;
     return Inverse(a_.cam_from_world) * *in_a;
   }
 
  private:
-  bool ReprojectsWell(const Eigen::Vector3d& in_cam, const KeyFrame& keyframe, int feature) const {
+  bool ReprojectsWell(const Eigen::Vector3d& in_cam, const KeyFrame& keyframe, int feature,
+                      const Eigen::Vector2d& pixel) const {
     if (in_cam.z() <= 0.0) return false;
-    const double squared =
-        (view_.pinhole.Project(in_cam) - keyframe.features->pixel(feature)).squaredNorm();
+    const double squared = (view_.pinhole.Project(in_cam) - pixel).squaredNorm();
     const auto level = static_cast<std::size_t>(keyframe.features->level(feature));
     return squared * view_.inverse_variance[level] <= kChiSquare95With2Dof;
   }
@@ -79,6 +90,13 @@ class PairTriangulator {
   Rigid3d b_from_a_;
   double max_cosine_;
 };
+
+Eigen::Vector2d SeenPixel(const Map& map, MapPointId point, KeyFrameId keyframe) {
+  for (const auto& observation : map.point(point).observations) {
+    if (observation.keyframe == keyframe) return observation.pixel.cast<double>();
+  }
+  LIFT_SLAM_CHECK(false, "keyframe {} does not see point {}", keyframe.value, point.value);
+}
 
 }  // namespace
 
@@ -104,6 +122,16 @@ std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOp
       const MapPointId point = map.AddPoint(*position, keyframe_id);
       map.AddObservation(point, keyframe_id, match.a);
       map.AddObservation(point, neighbor.keyframe, match.b);
+      AnchorPoint(point, keyframe_id, map);
+      if (AlignObservation(point, neighbor.keyframe, map)) {
+        const auto aligned =
+            triangulator.Triangulate(match, SeenPixel(map, point, neighbor.keyframe));
+        if (!aligned) {
+          map.ErasePoint(point);
+          continue;
+        }
+        map.point(point).position = *aligned;
+      }
       map.UpdateAppearance(point);
       created.push_back(point);
     }

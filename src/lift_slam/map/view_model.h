@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "lift_slam/camera/pinhole.h"
+#include "lift_slam/camera/undistortion.h"
 #include "lift_slam/features/feature_extractor.h"
+#include "lift_slam/image/patch_alignment.h"
 
 namespace lift_slam {
 
@@ -16,6 +19,13 @@ struct ViewModel {
   MatchingThresholds thresholds;
   std::vector<float> scale;              // by level, >= 1
   std::vector<double> inverse_variance;  // by level, 1 / px^2; sigma grows with the scale
+  PatchAlignmentOptions alignment;
+  std::shared_ptr<const UndistortionMap> undistortion;  // null: keypoints are undistorted already
+
+  double InverseVariance(int level, bool is_aligned) const {
+    const double factor = is_aligned ? alignment.sigma_factor : 1.0;
+    return inverse_variance[static_cast<std::size_t>(level)] / (factor * factor);
+  }
 
   bool Covers(const Eigen::Vector2d& pixel) const {
     return pixel.x() >= min_x && pixel.x() < max_x && pixel.y() >= min_y && pixel.y() < max_y;

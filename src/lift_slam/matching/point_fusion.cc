@@ -2,6 +2,7 @@
 
 #include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/matching/nearest_two.h"
+#include "lift_slam/matching/observation_alignment.h"
 #include "lift_slam/matching/point_projection.h"
 
 namespace lift_slam {
@@ -28,6 +29,17 @@ int FindFeature(const Map& map, const KeyFrame& keyframe, const MapPoint& point,
   return nearest.best_distance <= view.thresholds.low ? nearest.best : -1;
 }
 
+// The observations that come along are aligned to the patch of the point that stays.
+void MergeAndAlign(MapPointId from, MapPointId into, Map& map) {
+  const std::vector<MapPoint::Observation> moved = map.point(from).observations;
+  map.MergePoints(from, into);
+  for (const auto& observation : moved) {
+    if (map.point(into).FeatureIn(observation.keyframe) == observation.feature) {
+      AlignObservation(into, observation.keyframe, map);
+    }
+  }
+}
+
 }  // namespace
 
 FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe_id, float radius_px,
@@ -44,10 +56,11 @@ FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe_
     const MapPointId present = keyframe.map_points[Index(feature)];
     if (!present.valid()) {
       map.AddObservation(id, keyframe_id, feature);
+      AlignObservation(id, keyframe_id, map);
       ++counts.observations_added;
     } else {
       const bool keep_present = map.point(present).num_observations() > point->num_observations();
-      map.MergePoints(keep_present ? id : present, keep_present ? present : id);
+      MergeAndAlign(keep_present ? id : present, keep_present ? present : id, map);
       ++counts.points_merged;
     }
   }

@@ -56,7 +56,7 @@ void MapSession::Backfill(std::vector<Frame> waiting, const Frame& current) {
 MapSession::Step MapSession::Process(const PreparedFrame& prepared) {
   Step step;
   const Timer track_timer;
-  Frame frame(prepared.input.frame_index, prepared.input.timestamp_ns, prepared.features);
+  Frame frame = prepared.MakeFrame();
   step.tracking = tracker_.Track(*map_, frame);
   step.track_ms = track_timer.ElapsedMs();
   if (step.tracking.refusal != FrameRefusal::kNone) return step;

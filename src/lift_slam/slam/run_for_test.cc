@@ -11,7 +11,7 @@ namespace {
 using NextFrame = std::function<std::optional<InputFrame>()>;
 
 RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const NextFrame& next) {
-  FramePreparer preparer(camera, CreateOrbExtractor(options.slam.orb));
+  FramePreparer preparer(camera, CreateOrbExtractor(options.slam.orb), options.slam.alignment);
   SlamSystem system(camera, preparer.view(), options.slam);
   RunPipeline(
       options.mode,

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "lift_slam/features/orb/orb_options.h"
+#include "lift_slam/image/patch_alignment.h"
 #include "lift_slam/local_mapping/local_mapper_options.h"
 #include "lift_slam/optimization/bundle_adjustment.h"
 #include "lift_slam/tracking/map_initializer.h"
@@ -16,6 +17,7 @@ struct SlamOptions {
   int min_keyframes_to_keep = 5;  // a map lost with fewer is thrown away ("reset")
   bool final_bundle_adjustment = true;  // of every kept map, when the input has ended
   OrbOptions orb;
+  PatchAlignmentOptions alignment;
   MapInitializerOptions initializer;
   TrackerOptions tracker;
   LocalMapperOptions local_mapper;
@@ -31,6 +33,7 @@ struct SlamOptions {
     visitor.Field("final_bundle_adjustment", final_bundle_adjustment,
                   "adjust whole maps when the input has ended");
     visitor.Group("orb", orb, "ORB features");
+    visitor.Group("alignment", alignment, "sub-pixel alignment of matched features");
     visitor.Group("initializer", initializer, "how a map is begun");
     visitor.Group("tracker", tracker, "image to pose");
     visitor.Group("local_mapper", local_mapper, "keyframe to map");

@@ -41,7 +41,7 @@ const FrameRecord& SlamSystem::Process(const PreparedFrame& prepared) {
 
 void SlamSystem::ProcessInitializing(const PreparedFrame& prepared, FrameRecord& record) {
   const Timer timer;
-  const Frame frame(record.frame_index, record.timestamp_ns, prepared.features);
+  const Frame frame = prepared.MakeFrame();
   MapInitializer::Result result = initializer_->Process(frame);
   record.refusal = result.refusal;
   record.num_matches = result.num_matches;
@@ -108,7 +108,7 @@ void SlamSystem::HandleLost(const PreparedFrame& prepared, FrameRecord& record) 
   }
   if (!session_) {
     BeginInitializing();
-    initializer_->Process(Frame(record.frame_index, record.timestamp_ns, prepared.features));
+    initializer_->Process(prepared.MakeFrame());
   }
 }
 

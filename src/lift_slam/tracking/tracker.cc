@@ -4,6 +4,7 @@
 
 #include "lift_slam/geometry/absolute_pose.h"
 #include "lift_slam/matching/frame_matcher.h"
+#include "lift_slam/matching/observation_alignment.h"
 #include "lift_slam/tracking/frame_pose.h"
 #include "lift_slam/tracking/local_map.h"
 
@@ -14,10 +15,6 @@ namespace {
 constexpr int kMinFeatures = 50;
 // After a recovery the pose is rough: wider windows in the local map.
 constexpr float kWideRadiusFactor = 3.0F;
-
-void ClearMatches(Frame& frame) {
-  std::fill(frame.map_points.begin(), frame.map_points.end(), MapPointId());
-}
 
 void CountSightings(const std::vector<MapPointId>& visible, const Frame& frame, Map& map) {
   for (const MapPointId id : visible) ++map.point(id).num_visible;
@@ -62,7 +59,7 @@ TrackingResult Tracker::Track(Map& map, Frame& frame) {
     }
   }
   if (result.refusal != FrameRefusal::kNone) {
-    ClearMatches(frame);
+    frame.ClearMatches();
     last_was_tracked_ = false;
     velocity_.reset();
     return result;
@@ -86,7 +83,7 @@ bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame) const {
   const auto radius = static_cast<float>(options_.search_radius_px);
   int matches = MatchFromLastFrame(map, last_, radius, frame);
   for (int widening = 0; widening < 2 && matches < options_.min_matches; ++widening) {
-    ClearMatches(frame);
+    frame.ClearMatches();
     matches = MatchFromLastFrame(map, last_, radius * static_cast<float>(2 << widening), frame);
   }
   return matches >= options_.min_matches &&
@@ -112,7 +109,7 @@ bool Tracker::Recover(const Map& map, Frame& frame) const {
 }
 
 bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const {
-  ClearMatches(frame);
+  frame.ClearMatches();
   if (MatchFromKeyFrame(map, map.keyframe(keyframe), frame) < options_.min_matches) return false;
   const ViewModel& view = map.view();
   std::vector<PointMatch> matches;
@@ -135,6 +132,7 @@ int Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& re
   if (local.reference.valid()) reference_ = local.reference;
   const LocalMatchResult matched =
       MatchLocalPoints(map, local.points, wide ? kWideRadiusFactor : 1.0F, frame);
+  AlignMatches(map, frame);
   result.num_matches = frame.CountMatches();
   result.num_inliers = OptimizeFramePose(map, options_.pose, frame);
   CountSightings(matched.visible, frame, map);
