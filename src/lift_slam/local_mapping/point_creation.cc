@@ -7,7 +7,6 @@
 #include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/geometry/triangulation.h"
 #include "lift_slam/matching/observation_alignment.h"
-#include "lift_slam/util/check.h"
 
 namespace lift_slam {
 namespace {
@@ -91,11 +90,17 @@ class PairTriangulator {
   double max_cosine_;
 };
 
-Eigen::Vector2d SeenPixel(const Map& map, MapPointId point, KeyFrameId keyframe) {
-  for (const auto& observation : map.point(point).observations) {
-    if (observation.keyframe == keyframe) return observation.pixel.cast<double>();
-  }
-  LIFT_SLAM_CHECK(false, "keyframe {} does not see point {}", keyframe.value, point.value);
+// Aligns the point's observation in the other keyframe to its patch in the keyframe. False when the
+// point at the aligned pixels fails a check it had passed at the detected ones.
+bool AlignNewPoint(const PairTriangulator& triangulator, const FeatureMatch& match,
+                   KeyFrameId keyframe, KeyFrameId other, MapPointId id, Map& map) {
+  AnchorPoint(id, keyframe, map);
+  if (!AlignObservation(id, other, map)) return true;
+  MapPoint& point = map.point(id);
+  const auto seen = std::ranges::find(point.observations, other, &MapPoint::Observation::keyframe);
+  const auto position = triangulator.Triangulate(match, seen->pixel.cast<double>());
+  if (position) point.position = *position;
+  return position.has_value();
 }
 
 }  // namespace
@@ -122,15 +127,9 @@ std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOp
       const MapPointId point = map.AddPoint(*position, keyframe_id);
       map.AddObservation(point, keyframe_id, match.a);
       map.AddObservation(point, neighbor.keyframe, match.b);
-      AnchorPoint(point, keyframe_id, map);
-      if (AlignObservation(point, neighbor.keyframe, map)) {
-        const auto aligned =
-            triangulator.Triangulate(match, SeenPixel(map, point, neighbor.keyframe));
-        if (!aligned) {
-          map.ErasePoint(point);
-          continue;
-        }
-        map.point(point).position = *aligned;
+      if (!AlignNewPoint(triangulator, match, keyframe_id, neighbor.keyframe, point, map)) {
+        map.ErasePoint(point);
+        continue;
       }
       map.UpdateAppearance(point);
       created.push_back(point);
