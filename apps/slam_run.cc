@@ -97,13 +97,9 @@ RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& opti
   }
   SlamOptions slam = options.slam;
   slam.seed = options.seed;
-<<<<<<< HEAD
   auto extractor = CreateFeatureExtractor(slam.features);
   if (const std::string notice = extractor->Notice(); !notice.empty()) log.Warning(notice);
   FramePreparer preparer(*info.camera, std::move(extractor), slam.alignment);
-=======
-  FramePreparer preparer(*info.camera, CreateOrbExtractor(slam.orb), slam.alignment);
->>>>>>> align
   SlamSystem system(*info.camera, preparer.view(), slam);
   const StopSignal stop;
   RunObserver observer(folder, info.num_frames, system, log);

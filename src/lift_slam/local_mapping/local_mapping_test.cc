@@ -35,7 +35,7 @@ class LocalMappingTest : public testing::Test {
 
 TEST_F(LocalMappingTest, NewPointsLieWhereTheyAre) {
   FillHalf();
-  const std::vector<MapPointId> created = CreatePoints(second_, options_, map_);
+  const std::vector<MapPointId> created = CreatePoints(second_, options_, 50.0F, map_);
   EXPECT_GT(created.size(), 80U);
   for (const MapPointId id : created) {
     const auto feature = static_cast<std::size_t>(map_.point(id).FeatureIn(second_));
@@ -47,7 +47,7 @@ TEST_F(LocalMappingTest, NewPointsLieWhereTheyAre) {
 TEST_F(LocalMappingTest, NoPointsFromABaselineTooShort) {
   FillHalf();
   map_.SetPose(second_, CameraAt(0.001));
-  EXPECT_TRUE(CreatePoints(second_, options_, map_).empty());
+  EXPECT_TRUE(CreatePoints(second_, options_, 50.0F, map_).empty());
 }
 
 TEST_F(LocalMappingTest, RecentPointsRarelyFoundAreCulled) {
@@ -84,7 +84,7 @@ TEST_F(LocalMappingTest, RedundantKeyFramesAreCulledButNotTheFirst) {
 TEST_F(LocalMappingTest, KeyFramesWithPointsOfTheirOwnStay) {
   FillHalf();
   map_.AddKeyFrame(scene_.MakeFrame(2, CameraAt(0.5)));
-  EXPECT_EQ(CullKeyFrames(second_, options_, map_), 0);
+  EXPECT_EQ(CullKeyFrames(second_, options_, 50.0F, map_), 0);
 }
 
 TEST_F(LocalMappingTest, FusionConnectsAKeyFrameWithWhatItSees) {
@@ -92,7 +92,7 @@ TEST_F(LocalMappingTest, FusionConnectsAKeyFrameWithWhatItSees) {
   Frame third = scene_.MakeFrame(2, CameraAt(0.5));
   for (std::size_t i = 0; i < 30; ++i) third.map_points[i] = map_.keyframe(first_).map_points[i];
   const KeyFrameId id = map_.AddKeyFrame(third);
-  const FusionCounts counts = FuseWithNeighbors(id, options_, map_);
+  const FusionCounts counts = FuseWithNeighbors(id, options_, 50.0F, map_);
   EXPECT_GT(counts.observations_added, 50);
   EXPECT_GT(map_.covisibility().SharedPoints(id, first_), 80);
 }

@@ -42,17 +42,6 @@ void MergeAndAlign(MapPointId from, MapPointId into, Map& map) {
   }
 }
 
-// The observations that come along are aligned to the patch of the point that stays.
-void MergeAndAlign(MapPointId from, MapPointId into, Map& map) {
-  const std::vector<MapPoint::Observation> moved = map.point(from).observations;
-  map.MergePoints(from, into);
-  for (const auto& observation : moved) {
-    if (map.point(into).FeatureIn(observation.keyframe) == observation.feature) {
-      AlignObservation(into, observation.keyframe, map);
-    }
-  }
-}
-
 }  // namespace
 
 FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe_id, float radius_px,

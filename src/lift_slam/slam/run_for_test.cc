@@ -11,12 +11,8 @@ namespace {
 using NextFrame = std::function<std::optional<InputFrame>()>;
 
 RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const NextFrame& next) {
-<<<<<<< HEAD
   FramePreparer preparer(camera, CreateFeatureExtractor(options.slam.features),
                          options.slam.alignment);
-=======
-  FramePreparer preparer(camera, CreateOrbExtractor(options.slam.orb), options.slam.alignment);
->>>>>>> align
   SlamSystem system(camera, preparer.view(), options.slam);
   RunPipeline(
       options.mode,
