@@ -84,7 +84,7 @@ TEST_F(LocalMappingTest, RedundantKeyFramesAreCulledButNotTheFirst) {
 TEST_F(LocalMappingTest, KeyFramesWithPointsOfTheirOwnStay) {
   FillHalf();
   map_.AddKeyFrame(scene_.MakeFrame(2, CameraAt(0.5)));
-  EXPECT_EQ(CullKeyFrames(second_, options_, 50.0F, map_), 0);
+  EXPECT_EQ(CullKeyFrames(second_, options_, map_), 0);
 }
 
 TEST_F(LocalMappingTest, FusionConnectsAKeyFrameWithWhatItSees) {
