@@ -13,8 +13,8 @@ namespace lift_slam {
 // seed.
 
 // LiftWeights::descriptor_ranges over patches of the weights' own keypoints in these images, half
-// of them with a gamma of 1/2 to 2; about 0.1 s a patch. Flat patches are left out. Throws InputError when the images have no
-// keypoints.
+// of them with a gamma of 1/2 to 2; about 0.1 s a patch. Flat patches are left out. Throws
+// InputError when the images have no keypoints.
 std::vector<float> MeasureRangesOnImages(const LiftWeights& weights,
                                          std::span<const GrayImage> images, int num_patches,
                                          std::uint64_t seed);
