@@ -72,7 +72,8 @@ TEST(LiftExtractor, KeypointsAreWithinTheImageWithScalesOfTheirLevels) {
 
 TEST(LiftExtractor, UprightDescriptorsAreThoseOfTheirPatches) {
   const LiftWeights weights = RandomLiftWeights(LiftTopology::kF, 3, /*with_orientation=*/false);
-  LiftExtractor extractor(weights, {.max_features = 5, .upright = true});
+  LiftExtractor extractor(
+      weights, {.max_features = 5, .precision = nn::Precision::kFloat32, .upright = true});
   const GrayImage image = Texture(230, 170);
   const FeatureSet features = extractor.Extract(image);
   KeypointDetector detector({});
