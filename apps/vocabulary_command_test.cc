@@ -98,7 +98,8 @@ TEST_F(VocabularyCommandTest, BadInputIsOneSentence) {
   WriteTextAtomically(folder_ / "foreign", "%YAML:1.0");
   WriteTextAtomically(folder_ / "truncated", ReadText(vocabulary_).substr(0, 5000));
   const std::filesystem::path weights = folder_ / "weights.safetensors";
-  WriteLiftWeights(RandomLiftWeights(LiftTopology::kT, 3), weights);
+  LiftWeights random_weights = RandomLiftWeights(LiftTopology::kT, 3);
+  WriteLiftWeights(random_weights, weights);
   const std::string output = " --output " + (folder_ / "x").string();
   for (const auto& [arguments, part] : std::vector<std::pair<std::string, std::string>>{
            {"vocabulary info /nonexistent", "no such file"},
