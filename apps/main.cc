@@ -16,6 +16,7 @@
 #include "apps/report_command.h"
 #include "apps/run_command.h"
 #include "apps/synthesize_command.h"
+#include "apps/vocabulary_command.h"
 #include "apps/weights_command.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
@@ -27,7 +28,7 @@ namespace {
 constexpr void (*kCommands[])(CLI::App&) = {
     AddRunCommand,        AddEvaluateCommand, AddReportCommand, AddRenderCommand,
     AddSynthesizeCommand, AddExtractCommand,  AddMatchCommand,  AddWeightsCommand,
-    AddConfigCommand,     AddInfoCommand,
+    AddVocabularyCommand, AddConfigCommand,   AddInfoCommand,
 };
 
 void AddEverything(CLI::App& app) {
