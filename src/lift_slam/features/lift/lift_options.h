@@ -23,7 +23,7 @@ struct LiftExtractorOptions {
   bool upright = false;
   // Standard deviation of the position of a keypoint of sigma 1, pixels; grows with sigma. The
   // scores have about one pixel for a sigma of 2.
-  double sigma_px = 0.8;
+  double sigma_px = 0.65;
   // Distances of descriptors below which two are taken for the same point, strictly and loosely;
   // 0: from what was measured with the weights, or the paper's of KITTI, 2 and 3.
   double low_threshold = 0.0;
