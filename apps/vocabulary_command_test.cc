@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <sstream>
 
 #include "apps/program_for_test.h"
 #include "lift_slam/features/lift/lift_reference_for_test.h"
@@ -36,6 +37,16 @@ void WriteImages(const std::filesystem::path& folder, int num_places) {
     cv::imwrite(name(0), image(cv::Rect(0, 0, 380, 280)));
     cv::imwrite(name(1), image(cv::Rect(13, 7, 380, 280)));
   }
+}
+
+// Without the lines that long work leaves: "12/12 frames in 0.1 s (96.0 frames/s), extracted".
+std::string WithoutProgress(const std::string& output) {
+  std::istringstream lines(output);
+  std::string kept;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("frames/s)") == std::string::npos) kept += line + '\n';
+  }
+  return kept;
 }
 
 class VocabularyCommandTest : public testing::Test {
@@ -117,9 +128,10 @@ TEST_F(VocabularyCommandTest, BadInputIsOneSentence) {
        }) {
     const Outcome outcome = RunProgram(arguments);
     EXPECT_EQ(outcome.exit_code, 1) << arguments;
-    EXPECT_THAT(outcome.output, StartsWith("lift_slam: ")) << arguments;
-    EXPECT_THAT(outcome.output, HasSubstr(part)) << arguments;
-    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    const std::string sentence = WithoutProgress(outcome.output);
+    EXPECT_THAT(sentence, StartsWith("lift_slam: ")) << arguments;
+    EXPECT_THAT(sentence, HasSubstr(part)) << arguments;
+    EXPECT_EQ(std::count(sentence.begin(), sentence.end(), '\n'), 1) << outcome.output;
   }
 }
 
