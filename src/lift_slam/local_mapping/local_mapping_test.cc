@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <opencv2/core.hpp>
+
 #include "lift_slam/local_mapping/culling.h"
 #include "lift_slam/local_mapping/fusion.h"
 #include "lift_slam/local_mapping/local_mapper.h"
 #include "lift_slam/local_mapping/point_creation.h"
+#include "lift_slam/local_mapping/repetition_check.h"
 #include "lift_slam/testing/synthetic_frames.h"
 
 namespace lift_slam {
@@ -48,6 +52,35 @@ TEST_F(LocalMappingTest, NoPointsFromABaselineTooShort) {
   FillHalf();
   map_.SetPose(second_, CameraAt(0.001));
   EXPECT_TRUE(CreatePoints(second_, options_, 50.0F, map_).empty());
+}
+
+ImagePyramid Image(const std::function<double(int x, int y)>& gray, const ViewModel& view) {
+  cv::Mat image(static_cast<int>(view.max_y) + 1, static_cast<int>(view.max_x) + 1, CV_8UC1);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x)
+      image.at<uchar>(y, x) = cv::saturate_cast<uchar>(gray(x, y));
+  }
+  return BuildPyramid(GrayImage(image), {});
+}
+
+TEST_F(LocalMappingTest, PostsOfAFenceAreRepetitiveAndTextureIsNot) {
+  FillHalf();
+  Random random(7);
+  const auto fence = std::make_shared<ImagePyramid>(
+      Image([](int x, int) { return x % 24 < 8 ? 160.0 : 60.0; }, *scene_.view()));
+  const auto texture = std::make_shared<ImagePyramid>(
+      Image([&](int, int) { return random.Uniform(0.0, 255.0); }, *scene_.view()));
+  const auto count = [&](std::shared_ptr<const ImagePyramid> pyramid) {
+    KeyFrame keyframe = map_.keyframe(second_);
+    keyframe.pyramid = std::move(pyramid);
+    RepetitionCheck check(map_, keyframe, 0.9);
+    int repetitive = 0;
+    for (int i = 0; i < kPoints; ++i) repetitive += check.IsRepetitive(i, map_.keyframe(first_));
+    return repetitive;
+  };
+  EXPECT_GT(count(fence), kPoints / 2);  // the others are at the border, or outside
+  EXPECT_EQ(count(texture), 0);
+  EXPECT_EQ(count(nullptr), 0);
 }
 
 TEST_F(LocalMappingTest, RecentPointsRarelyFoundAreCulled) {

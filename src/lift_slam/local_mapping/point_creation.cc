@@ -6,6 +6,7 @@
 
 #include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/geometry/triangulation.h"
+#include "lift_slam/local_mapping/repetition_check.h"
 #include "lift_slam/matching/observation_alignment.h"
 
 namespace lift_slam {
@@ -115,6 +116,7 @@ std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOp
   // The widest baselines first: a point made from them is surer than one made from a near pair,
   // and its feature is then taken.
   std::reverse(neighbors.begin(), neighbors.end());
+  RepetitionCheck repetition(map, keyframe, options.max_self_similarity);
   for (const auto& neighbor : neighbors) {
     const KeyFrame& other = map.keyframe(neighbor.keyframe);
     const double baseline = (keyframe.Center() - other.Center()).norm();
@@ -123,7 +125,7 @@ std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOp
     for (const FeatureMatch& match : MatchAlongEpipolarLines(
              keyframe, other, depth->near, max_distance, map.view(), options.epipolar)) {
       const auto position = triangulator.Triangulate(match);
-      if (!position) continue;
+      if (!position || repetition.IsRepetitive(match.a, other)) continue;
       const MapPointId point = map.AddPoint(*position, keyframe_id);
       map.AddObservation(point, keyframe_id, match.a);
       map.AddObservation(point, neighbor.keyframe, match.b);

@@ -83,6 +83,11 @@ class EpipolarGeometry {
   std::optional<Eigen::Vector2d> epipole_;  // in b, when before b's camera
 };
 
+bool LevelsFit(int level_a, int level_b, const ViewModel& view) {
+  return std::abs(level_a - level_b) <= view.level_tolerance + 1;
+}
+
+// Features of b with map points as well: one of them may be the right one, and then no other is.
 NearestTwo SearchSegment(const KeyFrame& a, int i, const KeyFrame& b,
                          const EpipolarGeometry& geometry, const EpipolarSegment& segment,
                          const ViewModel& view, const EpipolarMatchOptions& options) {
@@ -90,8 +95,7 @@ NearestTwo SearchSegment(const KeyFrame& a, int i, const KeyFrame& b,
   const auto max_error = static_cast<float>(options.max_epipolar_error_px);
   NearestTwo nearest;
   features.ForEachNearSegment(segment.far, segment.near, max_error, [&](int j) {
-    if (b.map_points[Index(j)].valid()) return;
-    if (std::abs(features.level(j) - a.features->level(i)) > view.level_tolerance + 1) return;
+    if (!LevelsFit(features.level(j), a.features->level(i), view)) return;
     const Eigen::Vector2d pixel = features.pixel(j);
     const double scale = view.scale[Index(features.level(j))];
     if (segment.Distance(pixel) > options.max_epipolar_error_px * scale) return;
@@ -142,8 +146,9 @@ std::vector<FeatureMatch> MatchAlongEpipolarLines(const KeyFrame& a, const KeyFr
     const auto segment = geometry.SegmentOf(a.features->pixel(i));
     if (!segment) continue;
     const NearestTwo nearest = SearchSegment(a, i, b, geometry, *segment, view, options);
-    if (nearest.best < 0 || nearest.best_distance > max_distance ||
-        !nearest.IsDistinctive(static_cast<float>(options.max_descriptor_ratio))) {
+    const auto ratio = static_cast<float>(options.max_descriptor_ratio);
+    if (nearest.best < 0 || b.map_points[Index(nearest.best)].valid() ||
+        nearest.best_distance > max_distance || !nearest.IsDistinctive(ratio)) {
       continue;
     }
     matches.push_back({i, nearest.best});

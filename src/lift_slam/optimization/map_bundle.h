@@ -22,10 +22,8 @@ MapBundleReport AdjustBundle(const std::vector<KeyFrameId>& free_keyframes,
 
 // All keyframes and points; the first keyframe and, so that the scale cannot drift, no other is
 // held fixed.
-MapBundleReport AdjustWholeMap(const BundleOptions& options, Map& map);
-
-// All keyframes and points together with a correction of the calibration. The features' pixels in
-// the map stay as measured: whoever projects afterwards applies the correction.
-SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Map& map);
+// The features' pixels in the map stay as measured; the bundle takes them with the correction.
+MapBundleReport AdjustWholeMap(const BundleOptions& options,
+                               const CalibrationCorrection& correction, Map& map);
 
 }  // namespace lift_slam

@@ -115,6 +115,12 @@ Eigen::Vector2d CalibrationCorrection::ToIdeal(const PinholeIntrinsics& intrinsi
   return {intrinsics.fx * ideal.x() + intrinsics.cx, intrinsics.fy * ideal.y() + intrinsics.cy};
 }
 
+void MakePixelsIdeal(const CalibrationCorrection& correction, BundleProblem& problem) {
+  for (BundleObservation& observation : problem.observations) {
+    observation.pixel = correction.ToIdeal(problem.intrinsics, observation.pixel);
+  }
+}
+
 SelfCalibrationReport SelfCalibrate(BundleProblem& problem, const SelfCalibrationOptions& options) {
   SelfCalibrationReport report;
   if (problem.observations.empty()) return report;
@@ -140,9 +146,7 @@ SelfCalibrationReport SelfCalibrate(BundleProblem& problem, const SelfCalibratio
   report.correction = {parameters.correction[0], parameters.correction[1]};
   problem.cams_from_world = std::move(parameters.cams_from_world);
   problem.points = std::move(parameters.points);
-  for (BundleObservation& observation : problem.observations) {
-    observation.pixel = report.correction.ToIdeal(problem.intrinsics, observation.pixel);
-  }
+  MakePixelsIdeal(report.correction, problem);
   return report;
 }
 

@@ -24,6 +24,10 @@ struct SelfCalibrationOptions {
   double focal_scale_sigma = 0.01;
   double k1_sigma = 0.01;
   int min_keyframes = 20;  // fewer say too little
+  // Maps of more keyframes are calibrated on so many, in windows of consecutive ones spread over
+  // the map: enough for two unknowns, and the time no longer grows with the map.
+  int max_keyframes = 400;
+  int window_keyframes = 100;
   int max_iterations = 30;
   double function_tolerance = 1e-5;
 
@@ -33,11 +37,17 @@ struct SelfCalibrationOptions {
                   "prior standard deviation of the focal length, as a ratio");
     visitor.Field("k1_sigma", k1_sigma, "prior standard deviation of the radial distortion k1");
     visitor.Field("min_keyframes", min_keyframes, "keyframes a map needs for it");
+    visitor.Field("max_keyframes", max_keyframes,
+                  "keyframes it takes at most, spread over the map");
+    visitor.Field("window_keyframes", window_keyframes, "consecutive keyframes it takes together");
     visitor.Field("max_iterations", max_iterations, "iterations of the solver at most");
     visitor.Field("function_tolerance", function_tolerance,
                   "relative change of the cost that ends the solver");
   }
 };
+
+// The observations' pixels become those that the ideal pinhole would have measured.
+void MakePixelsIdeal(const CalibrationCorrection& correction, BundleProblem& problem);
 
 struct SelfCalibrationReport {
   bool usable = false;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lift_slam/optimization/map_calibration.h"
 #include "lift_slam/util/timer.h"
 
 namespace lift_slam {
@@ -86,9 +87,24 @@ MappingReport MapSession::InsertKeyFrame(Frame& frame, const GrayImage& image) {
   return report;
 }
 
-void MapSession::SelfCalibrate(const SelfCalibrationOptions& options) {
-  const SelfCalibrationReport report = SelfCalibrateMap(options, *map_);
+void MapSession::AdjustFinally(const BundleOptions& bundle,
+                               const SelfCalibrationOptions& calibration, StageTimes& times_ms) {
+  const bool is_short = IsCalibratedAsAWhole(calibration, *map_);
+  Timer timer;
+  if (is_short) {
+    AdjustWholeMap(bundle, CalibrationCorrection(), *map_);
+    times_ms["final_bundle"].push_back(timer.ElapsedMs());
+    timer = Timer();
+  }
+  const SelfCalibrationReport report =
+      is_short ? SelfCalibrateMap(calibration, *map_) : EstimateCalibration(calibration, *map_);
+  times_ms["self_calibration"].push_back(timer.ElapsedMs());
   if (report.usable) correction_ = report.correction;
+  if (!is_short) {
+    timer = Timer();
+    AdjustWholeMap(bundle, correction_, *map_);
+    times_ms["final_bundle"].push_back(timer.ElapsedMs());
+  }
 }
 
 void MapSession::RememberGray(KeyFrameId keyframe_id, const GrayImage& image) {

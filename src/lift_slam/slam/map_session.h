@@ -41,8 +41,10 @@ class MapSession {
   const Map& map() const { return *map_; }
   Map& mutable_map() { return *map_; }
   const std::vector<FrameReference>& frames() const { return frames_; }
-  // Corrects the calibration together with the map; the correction is kept.
-  void SelfCalibrate(const SelfCalibrationOptions& options);
+  // After the last frame: bundle adjustment of the whole map and self-calibration; the correction
+  // is kept. A long map is calibrated first, on a part, and adjusted once.
+  void AdjustFinally(const BundleOptions& bundle, const SelfCalibrationOptions& calibration,
+                     StageTimes& times_ms);
   const CalibrationCorrection& correction() const { return correction_; }
   int num_backfilled() const { return num_backfilled_; }
   // Grey value of the pixel a point was made from.

@@ -141,12 +141,8 @@ void SlamSystem::CountMapping(const MappingReport& report) {
 void SlamSystem::AdjustFinalMaps() {
   for (const auto& session : finished_) {
     if (session->map().num_keyframes() < 3) continue;
-    const Timer timer;
-    AdjustWholeMap(options_.final_bundle, session->mutable_map());
-    record_.stage_times_ms["final_bundle"].push_back(timer.ElapsedMs());
-    const Timer calibration_timer;
-    session->SelfCalibrate(options_.self_calibration);
-    record_.stage_times_ms["self_calibration"].push_back(calibration_timer.ElapsedMs());
+    session->AdjustFinally(options_.final_bundle, options_.self_calibration,
+                           record_.stage_times_ms);
   }
 }
 

@@ -134,7 +134,7 @@ std::optional<InitialMap> MapInitializer::BuildMap(const Frame& frame,
     AlignObservation(point, first_id, map);
   }
   if (map.num_points() < options_.min_points) return std::nullopt;
-  const MapBundleReport report = AdjustWholeMap(bundle_options_, map);
+  const MapBundleReport report = AdjustWholeMap(bundle_options_, CalibrationCorrection(), map);
   if (!report.solver.usable || map.num_points() < options_.min_points) return std::nullopt;
   NormalizeScale(map);
   initial.current.cam_from_world = map.keyframe(second_id).cam_from_world;

@@ -1,5 +1,6 @@
 #include "lift_slam/tracking/tracker.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lift_slam/geometry/absolute_pose.h"
@@ -13,7 +14,7 @@ namespace {
 
 // Below this an image shows nothing that could be tracked.
 constexpr int kMinFeatures = 50;
-// After a recovery the pose is rough: wider windows in the local map.
+// Where the motion model or, after a recovery, the pose is rough.
 constexpr float kWideRadiusFactor = 3.0F;
 
 void CountSightings(const std::vector<MapPointId>& visible, const Frame& frame, Map& map) {
@@ -83,8 +84,16 @@ void Tracker::Remember(const Frame& frame) {
 
 bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) const {
   frame.cam_from_world = velocity_ ? *velocity_ * last_.cam_from_world : last_.cam_from_world;
-  const auto radius = static_cast<float>(options_.search_radius_px);
+  const int enough = std::max(
+      options_.min_matches,
+      static_cast<int>(options_.min_match_share * static_cast<double>(last_.CountMatches())));
+  auto radius = static_cast<float>(options_.search_radius_px);
   int matches = MatchFromLastFrame(map, last_, radius, result.thresholds.high, frame);
+  if (matches < enough) {
+    frame.ClearMatches();
+    radius *= kWideRadiusFactor;
+    matches = MatchFromLastFrame(map, last_, radius, result.thresholds.high, frame);
+  }
   if (matches < options_.min_matches) result.thresholds = LoosestThresholds(map);
   for (int widening = 0; widening < 2 && matches < options_.min_matches; ++widening) {
     frame.ClearMatches();

@@ -8,12 +8,16 @@
 namespace lift_slam {
 
 struct TrackerOptions {
-  double search_radius_px = 15.0;  // around the predicted place, on level 0
-  int min_matches = 20;            // with the last frame; else the next, wider search
-  int min_inliers_first = 10;      // after the first pose optimisation
-  int min_inliers = 30;            // after the local map; fewer: lost
-  int max_local_keyframes = 60;    // of the local map
-  int recovery_keyframes = 5;      // recent keyframes matched without prediction when lost
+  // Around the predicted place, on level 0. Narrow: in a row of like things, such as the posts of a
+  // fence, a wide window takes the next one for the one that was seen.
+  double search_radius_px = 5.0;
+  // Share of the last frame's points that must be found, else the window is widened three times.
+  double min_match_share = 0.4;
+  int min_matches = 20;          // with the last frame; else the next, wider search
+  int min_inliers_first = 10;    // after the first pose optimisation
+  int min_inliers = 30;          // after the local map; fewer: lost
+  int max_local_keyframes = 60;  // of the local map
+  int recovery_keyframes = 5;    // recent keyframes matched without prediction when lost
   PoseOptimizationOptions pose;
   AbsolutePoseOptions absolute_pose;
   KeyFrameDecisionOptions keyframe;
@@ -21,6 +25,8 @@ struct TrackerOptions {
   void Visit(OptionVisitor& visitor) {
     visitor.Field("search_radius_px", search_radius_px,
                   "window around the predicted place of a point, on the full-size level");
+    visitor.Field("min_match_share", min_match_share,
+                  "share of the last frame's points below which the window is widened");
     visitor.Field("min_matches", min_matches, "matches with the last frame before a wider search");
     visitor.Field("min_inliers_first", min_inliers_first,
                   "points that must agree with the first pose");

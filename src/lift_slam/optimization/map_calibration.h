@@ -1,0 +1,21 @@
+#pragma once
+
+#include "lift_slam/map/map.h"
+#include "lift_slam/optimization/self_calibration.h"
+
+namespace lift_slam {
+
+// Whether the map is short enough for one bundle with the correction in it (SelfCalibrateMap); else
+// EstimateCalibration and AdjustWholeMap with its result.
+bool IsCalibratedAsAWhole(const SelfCalibrationOptions& options, const Map& map);
+
+// All keyframes and points together with a correction of the calibration. The features' pixels in
+// the map stay as measured: whoever projects afterwards applies the correction. Not usable with
+// fewer than min_keyframes, or when it is switched off.
+SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Map& map);
+
+// The correction that fits windows of consecutive keyframes best; each window's first pose is held
+// fixed. The map stays as it is.
+SelfCalibrationReport EstimateCalibration(const SelfCalibrationOptions& options, const Map& map);
+
+}  // namespace lift_slam
