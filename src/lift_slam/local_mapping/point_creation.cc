@@ -104,40 +104,67 @@ bool AlignNewPoint(const PairTriangulator& triangulator, const FeatureMatch& mat
   return position.has_value();
 }
 
+// What the new keyframe is matched against its neighbours with.
+struct Creation {
+  const LocalMapperOptions& options;
+  float max_distance;
+  SceneDepth depth;
+  RepetitionCheck repetition;
+  std::vector<MapPointId> created;
+};
+
+void CreateFromPair(KeyFrameId keyframe_id, KeyFrameId other_id, Creation& creation, Map& map) {
+  const KeyFrame &keyframe = map.keyframe(keyframe_id), &other = map.keyframe(other_id);
+  const double baseline = (keyframe.Center() - other.Center()).norm();
+  if (baseline < creation.options.min_baseline_ratio * creation.depth.median) return;
+  const PairTriangulator triangulator(map, keyframe, other, creation.options);
+  for (const FeatureMatch& match :
+       MatchAlongEpipolarLines(keyframe, other, creation.depth.near, creation.max_distance,
+                               map.view(), creation.options.epipolar)) {
+    const auto position = triangulator.Triangulate(match);
+    if (!position || creation.repetition.IsRepetitive(match.a, other)) continue;
+    const MapPointId point = map.AddPoint(*position, keyframe_id);
+    map.AddObservation(point, keyframe_id, match.a);
+    map.AddObservation(point, other_id, match.b);
+    if (!AlignNewPoint(triangulator, match, keyframe_id, other_id, point, map)) {
+      map.ErasePoint(point);
+      continue;
+    }
+    map.UpdateAppearance(point);
+    creation.created.push_back(point);
+  }
+}
+
+int CountPoints(const KeyFrame& keyframe) {
+  return static_cast<int>(std::ranges::count_if(keyframe.map_points, &MapPointId::valid));
+}
+
 }  // namespace
 
 std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOptions& options,
                                      float max_distance, Map& map) {
-  std::vector<MapPointId> created;
   const auto depth = MeasureDepth(map, keyframe_id);
-  if (!depth) return created;
+  if (!depth) return {};
   const KeyFrame& keyframe = map.keyframe(keyframe_id);
+  Creation creation{options,
+                    max_distance,
+                    *depth,
+                    RepetitionCheck(map, keyframe, options.max_self_similarity),
+                    {}};
   auto neighbors = map.covisibility().Neighbors(keyframe_id, 1, options.triangulation_neighbors);
   // The widest baselines first: a point made from them is surer than one made from a near pair,
   // and its feature is then taken.
   std::reverse(neighbors.begin(), neighbors.end());
-  RepetitionCheck repetition(map, keyframe, options.max_self_similarity);
   for (const auto& neighbor : neighbors) {
-    const KeyFrame& other = map.keyframe(neighbor.keyframe);
-    const double baseline = (keyframe.Center() - other.Center()).norm();
-    if (baseline < options.min_baseline_ratio * depth->median) continue;
-    const PairTriangulator triangulator(map, keyframe, other, options);
-    for (const FeatureMatch& match : MatchAlongEpipolarLines(
-             keyframe, other, depth->near, max_distance, map.view(), options.epipolar)) {
-      const auto position = triangulator.Triangulate(match);
-      if (!position || repetition.IsRepetitive(match.a, other)) continue;
-      const MapPointId point = map.AddPoint(*position, keyframe_id);
-      map.AddObservation(point, keyframe_id, match.a);
-      map.AddObservation(point, neighbor.keyframe, match.b);
-      if (!AlignNewPoint(triangulator, match, keyframe_id, neighbor.keyframe, point, map)) {
-        map.ErasePoint(point);
-        continue;
-      }
-      map.UpdateAppearance(point);
-      created.push_back(point);
-    }
+    CreateFromPair(keyframe_id, neighbor.keyframe, creation, map);
   }
-  return created;
+  // Little else to see: points that may be wrong are better than to be lost.
+  creation.repetition.AllowAll();
+  for (const auto& neighbor : neighbors) {
+    if (CountPoints(keyframe) >= options.min_unique_points) break;
+    CreateFromPair(keyframe_id, neighbor.keyframe, creation, map);
+  }
+  return creation.created;
 }
 
 }  // namespace lift_slam

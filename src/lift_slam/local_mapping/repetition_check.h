@@ -21,6 +21,8 @@ class RepetitionCheck {
   // for the same feature it gives the first answer: the neighbours of a keyframe lie in about the
   // same direction, or see it from the same side.
   bool IsRepetitive(int feature, const KeyFrame& other);
+  // From now on nothing is repetitive.
+  void AllowAll() { max_similarity_ = 1.0; }
 
  private:
   bool Measure(int feature, const KeyFrame& other) const;
