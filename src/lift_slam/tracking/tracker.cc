@@ -59,19 +59,46 @@ TrackingResult Tracker::Track(Map& map, Frame& frame) {
                                                                  : FrameRefusal::kPoseRejected;
     }
   }
-  if (result.refusal != FrameRefusal::kNone) {
-    frame.ClearMatches();
-    last_was_tracked_ = false;
-    velocity_.reset();
-    adaptive_.looseness = 1.0;
-    return result;
-  }
+  if (result.refusal != FrameRefusal::kNone) return Refuse(result.refusal, frame, result);
+  return Conclude(map, frame, result);
+}
+
+TrackingResult Tracker::Refuse(FrameRefusal refusal, Frame& frame, TrackingResult result) {
+  result.refusal = refusal;
+  frame.ClearMatches();
+  last_was_tracked_ = false;
+  velocity_.reset();
+  adaptive_.looseness = 1.0;
+  return result;
+}
+
+TrackingResult Tracker::Conclude(const Map& map, const Frame& frame, TrackingResult result) {
   adaptive_ = Adapt(adaptive_, matching_, result.num_last_matches, result.num_last_outliers);
   result.reference = reference_;
   result.needs_keyframe = ShouldBecomeKeyFrame(map, result.num_inliers, reference_,
                                                frames_since_keyframe_, options_.keyframe);
   Remember(frame);
   return result;
+}
+
+TrackingResult Tracker::Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar) {
+  TrackingResult result;
+  result.thresholds = LoosestThresholds(map);
+  const KeyFrameId reference = reference_;
+  for (const KeyFrameId keyframe : similar) {
+    if (map.FindKeyFrame(keyframe) == nullptr || !TryKeyFrame(map, keyframe, frame)) continue;
+    if (TrackLocalMap(map, frame, /*wide=*/true, result) < options_.min_relocalised_inliers)
+      continue;
+    result.recovered = true;
+    return Conclude(map, frame, result);
+  }
+  reference_ = reference;
+  return Refuse(FrameRefusal::kTooFewTracked, frame, result);
+}
+
+void Tracker::MapCorrected(const Map& map, KeyFrameId keyframe, double scale) {
+  KeyFrameMapped(map, keyframe);
+  if (velocity_) velocity_->translation *= scale;
 }
 
 void Tracker::Remember(const Frame& frame) {

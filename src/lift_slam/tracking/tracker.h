@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "lift_slam/map/map.h"
 #include "lift_slam/matching/adaptive_thresholds.h"
@@ -40,6 +41,14 @@ class Tracker {
   // matches and points.
   void KeyFrameMapped(const Map& map, KeyFrameId keyframe);
 
+  // A lost frame that looks like these keyframes, best first: tried one after another, by
+  // descriptors alone. Succeeds with more points than usual; otherwise everything is as before.
+  TrackingResult Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar);
+
+  // The map has been corrected and `keyframe` is the last tracked frame: lengths in its camera
+  // frame were multiplied by `scale`.
+  void MapCorrected(const Map& map, KeyFrameId keyframe, double scale);
+
   // As they stand for the next frame and for mapping.
   MatchingThresholds Thresholds(const Map& map) const {
     return adaptive_.In(map.view().thresholds, matching_.thresholds);
@@ -52,6 +61,8 @@ class Tracker {
   MatchingThresholds LoosestThresholds(const Map& map) const;
   bool TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const;
   int TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result);
+  TrackingResult Refuse(FrameRefusal refusal, Frame& frame, TrackingResult result);
+  TrackingResult Conclude(const Map& map, const Frame& frame, TrackingResult result);
   void Remember(const Frame& frame);
 
   TrackerOptions options_;

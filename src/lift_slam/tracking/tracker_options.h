@@ -8,12 +8,13 @@
 namespace lift_slam {
 
 struct TrackerOptions {
-  double search_radius_px = 15.0;  // around the predicted place, on level 0
-  int min_matches = 20;            // with the last frame; else the next, wider search
-  int min_inliers_first = 10;      // after the first pose optimisation
-  int min_inliers = 30;            // after the local map; fewer: lost
-  int max_local_keyframes = 60;    // of the local map
-  int recovery_keyframes = 5;      // recent keyframes matched without prediction when lost
+  double search_radius_px = 15.0;    // around the predicted place, on level 0
+  int min_matches = 20;              // with the last frame; else the next, wider search
+  int min_inliers_first = 10;        // after the first pose optimisation
+  int min_inliers = 30;              // after the local map; fewer: lost
+  int min_relocalised_inliers = 50;  // the same for a lost frame found by its look (as ORB-SLAM)
+  int max_local_keyframes = 60;      // of the local map
+  int recovery_keyframes = 5;        // recent keyframes matched without prediction when lost
   PoseOptimizationOptions pose;
   AbsolutePoseOptions absolute_pose;
   KeyFrameDecisionOptions keyframe;
@@ -25,6 +26,8 @@ struct TrackerOptions {
     visitor.Field("min_inliers_first", min_inliers_first,
                   "points that must agree with the first pose");
     visitor.Field("min_inliers", min_inliers, "tracked points below which a frame is lost");
+    visitor.Field("min_relocalised_inliers", min_relocalised_inliers,
+                  "tracked points that a lost frame found by its look needs");
     visitor.Field("max_local_keyframes", max_local_keyframes, "keyframes of the local map");
     visitor.Field("recovery_keyframes", recovery_keyframes,
                   "keyframes tried without prediction when tracking fails");
