@@ -15,8 +15,8 @@ namespace lift_slam {
 // Scale and heading drift from keyframe to keyframe.
 struct DriftedLoop {
   static constexpr int kKeyframes = 120;  // and kWindow more after the whole turn
-  static constexpr int kWindow = 5;      // groups of points that a keyframe sees
-  static constexpr int kGroup = 16;      // points
+  static constexpr int kWindow = 5;       // groups of points that a keyframe sees
+  static constexpr int kGroup = 16;       // points
 
   double log_scale_drift = 0.004, yaw_drift_rad = 0.0005;  // per keyframe
   SyntheticFrames scene{kKeyframes * kGroup, 5.0, 10.0, 7};

@@ -7,6 +7,8 @@ void PlaceVerificationOptions::Visit(OptionVisitor& visitor) {
                 "covisible keyframes whose points join the candidate's");
   visitor.Field("min_word_matches", min_word_matches, "map points that match by descriptors");
   visitor.Field("min_inliers", min_inliers, "matches that agree with the optimised similarity");
+  visitor.Field("max_offset_ratio", max_offset_ratio,
+                "distance between both cameras, over the median depth of the place's points");
   visitor.Field("min_projected", min_projected, "features that show a point of the place");
   visitor.Field(
       "min_found_ratio", min_found_ratio,
@@ -19,7 +21,9 @@ void PlaceVerificationOptions::Visit(OptionVisitor& visitor) {
                 "search window, of that of local map tracking");
   visitor.Field("max_squared_error", max_squared_error,
                 "squared error over variance of a point that is not seen where it should be");
-  visitor.Group("ransac", ransac, "similarity from the first matches");
+  visitor.Group("ransac", ransac, "pose from the first matches");
+  visitor.Field("min_scale_matches", min_scale_matches,
+                "of these with map points on both sides, for the first scale");
   visitor.Group("sim3", sim3, "optimisation of the similarity");
 }
 

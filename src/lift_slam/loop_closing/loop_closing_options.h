@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "lift_slam/geometry/absolute_pose.h"
 #include "lift_slam/geometry/chi_square.h"
-#include "lift_slam/geometry/sim3_ransac.h"
 #include "lift_slam/optimization/pose_graph.h"
 #include "lift_slam/optimization/sim3_optimization.h"
 #include "lift_slam/place_recognition/loop_candidates.h"
@@ -15,7 +15,10 @@ struct PlaceVerificationOptions {
   int window_keyframes = 5;   // covisible keyframes whose points join the candidate's
   int min_word_matches = 20;  // fewer agree by chance
   int min_inliers = 20;       // of the optimised similarity
-  int min_projected = 40;     // features that show a point of the place (ORB-SLAM2's 40)
+  // Between both cameras, over the median depth of the candidate's points: what is far off is
+  // placed roughly, and comes nearer when it is the same way.
+  double max_offset_ratio = 1.0;
+  int min_projected = 40;  // features that show a point of the place (ORB-SLAM2's 40)
   // Share of the place's points that the query should see and does, over the same share of the
   // points around the query. A road whose texture repeats gives 0.1 with a perfect geometry.
   double min_found_ratio = 0.4;
@@ -25,7 +28,8 @@ struct PlaceVerificationOptions {
   double search_radius_factor = 2.5;  // of the windows of local map tracking (2.5 to 4 px)
   // Of the query's map points; in sigmas, as for the similarity.
   double max_squared_error = kChiSquare99With2Dof;
-  Sim3RansacOptions ransac;
+  int min_scale_matches = 8;  // with map points on both sides, for the first scale
+  AbsolutePoseOptions ransac;
   Sim3OptimizationOptions sim3;
 
   void Visit(OptionVisitor& visitor);

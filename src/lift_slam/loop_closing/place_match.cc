@@ -12,6 +12,8 @@ std::string_view Name(PlaceRejection rejection) {
       return "no_similarity";
     case PlaceRejection::kFewInliers:
       return "few_inliers";
+    case PlaceRejection::kTooFarAway:
+      return "too_far_away";
     case PlaceRejection::kFewProjected:
       return "few_projected";
     case PlaceRejection::kFewFound:
@@ -36,6 +38,8 @@ std::string_view Explain(PlaceRejection rejection) {
       return "The matches do not agree on one position of the camera.";
     case PlaceRejection::kFewInliers:
       return "Too few matches agree with the best position of the camera.";
+    case PlaceRejection::kTooFarAway:
+      return "The place is seen from too far away to say where the camera is.";
     case PlaceRejection::kFewProjected:
       return "Too few points of the place are found where they should be seen.";
     case PlaceRejection::kFewFound:

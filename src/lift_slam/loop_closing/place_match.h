@@ -14,6 +14,7 @@ enum class PlaceRejection {
   kFewWordMatches,  // too few map points match by descriptors
   kNoSimilarity,    // the matches agree on no similarity
   kFewInliers,      // too few agree after its optimisation
+  kTooFarAway,      // it shows the place, but from so far that the similarity is rough
   kFewProjected,    // too few of the place's points are found where it puts them
   kFewFound,        // too small a share of them, as where only a texture repeats itself
   kNotConfirmed,    // the keyframes around the query do not see the place's points
@@ -27,12 +28,14 @@ std::string_view Explain(PlaceRejection rejection);  // one sentence for people
 struct PlaceMatch {
   PlaceRejection rejection = PlaceRejection::kAccepted;
   int num_word_matches = 0;      // by descriptors alone
-  int num_ransac_inliers = 0;    // that agree on a similarity
+  int num_ransac_inliers = 0;    // that agree on a pose
   int num_inliers = 0;           // of the optimised similarity, both sides with map points
   int num_projected = 0;         // features of the query that show a point of the place
   double found_ratio = 0.0;      // these over the place's points that the query should see
   double own_found_ratio = 0.0;  // the same for the points around the query itself
-  int num_confirming = 0;        // covisible keyframes of the query that see the place too
+  // Distance between both cameras over the median depth of the candidate's points.
+  double offset_ratio = 0.0;
+  int num_confirming = 0;  // covisible keyframes of the query that see the place too
   // Camera coordinates of the query, in its map's units, from the candidate's map.
   Sim3d query_from_candidate_world;
   std::vector<MapPointId> points;  // by feature of the query: point of the candidate's map

@@ -1,9 +1,11 @@
 #include "lift_slam/loop_closing/place_verifier.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
-#include "lift_slam/geometry/sim3_ransac.h"
+#include "lift_slam/geometry/absolute_pose.h"
 #include "lift_slam/loop_closing/word_matching.h"
 #include "lift_slam/matching/frame_matcher.h"
 #include "lift_slam/optimization/pose_graph.h"
@@ -126,24 +128,43 @@ class Verifier {
     o.inverse_variance2 = view.InverseVariance(level, false);
   }
 
+  // The query's camera by the candidate's points alone, as its own may still be rough; then the
+  // scale by the depths of both.
   std::optional<Sim3d> EstimateByRansac(std::uint64_t seed, PlaceMatch& match) const {
-    std::vector<Sim3Match> matches;
-    const std::vector<Correspondence> correspondences = Correspondences(match.points);
-    for (const Correspondence& c : correspondences) {
-      const Sim3Observation& o = c.observation;
-      matches.push_back({o.point_in_cam1, o.point_in_cam2,
-                         query_.map.view().pinhole.Unproject(o.pixel1).head<2>(),
-                         candidate_.map.view().pinhole.Unproject(o.pixel2).head<2>(),
-                         1.0 / std::sqrt(o.inverse_variance1),
-                         1.0 / std::sqrt(o.inverse_variance2)});
+    const std::vector<MapPointId> points =
+        std::exchange(match.points, std::vector<MapPointId>(match.points.size()));
+    std::vector<PointMatch> matches;
+    std::vector<std::size_t> features;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const MapPoint* point = candidate_.map.FindPoint(points[i]);
+      if (point == nullptr) continue;
+      const ViewModel& view = query_.map.view();
+      const int feature = static_cast<int>(i);
+      const double inverse_variance =
+          view.InverseVariance(keyframe_.features->level(feature), false);
+      matches.push_back({point->position,
+                         view.pinhole.Unproject(keyframe_.features->pixel(feature)).head<2>(),
+                         1.0 / std::sqrt(inverse_variance)});
+      features.push_back(i);
     }
-    const auto estimate =
-        EstimateSim3(matches, FocalLength(query_.map), FocalLength(candidate_.map), ScaleFit::kFree,
-                     options_.ransac, seed);
-    match.points.assign(match.points.size(), MapPointId());
-    if (!estimate) return std::nullopt;
-    match.num_ransac_inliers = estimate->num_inliers;
-    return estimate->cam1_from_cam2;
+    const auto pose = EstimateAbsolutePose(matches, FocalLength(query_.map), options_.ransac, seed);
+    if (!pose) return std::nullopt;
+    match.num_ransac_inliers = pose->num_inliers;
+    std::vector<double> scales;  // of the query's map over the candidate's
+    for (std::size_t k = 0; k < matches.size(); ++k) {
+      const MapPoint* own = query_.map.FindPoint(keyframe_.map_points[features[k]]);
+      if (own == nullptr || !pose->is_inlier[k]) continue;
+      const double depth = (keyframe_.cam_from_world * own->position).z();
+      const double other = (pose->cam_from_world * matches[k].point_in_world).z();
+      if (depth > 0.0 && other > 0.0) scales.push_back(depth / other);
+    }
+    if (static_cast<int>(scales.size()) < options_.min_scale_matches) return std::nullopt;
+    const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
+    std::nth_element(scales.begin(), middle, scales.end());
+    const Sim3d query_from_candidate_world =
+        Sim3d(*middle, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero()) *
+        AsSimilarity(pose->cam_from_world);
+    return query_from_candidate_world * AsSimilarity(Inverse(candidate_from_world_));
   }
 
   void SetSimilarity(const Sim3d& query_from_candidate, PlaceMatch& match) const {
@@ -212,8 +233,18 @@ class Verifier {
     return result.num_inliers;
   }
 
+  double OffsetRatio(const PlaceMatch& match) const {
+    const std::vector<double> depths = candidate_.map.SceneDepths(candidate_.keyframe);
+    if (depths.empty()) return 0.0;
+    const Eigen::Vector3d query_in_world =
+        Inverse(match.query_from_candidate_world) * Eigen::Vector3d::Zero();
+    return (candidate_from_world_ * query_in_world).norm() / depths[depths.size() / 2];
+  }
+
   PlaceRejection Confirm(PlaceMatch& match) const {
     FindGuided(match);
+    match.offset_ratio = OffsetRatio(match);
+    if (match.offset_ratio > options_.max_offset_ratio) return PlaceRejection::kTooFarAway;
     if (match.num_projected < options_.min_projected) return PlaceRejection::kFewProjected;
     match.own_found_ratio = OwnFoundRatio();
     if (match.found_ratio < options_.min_found_ratio * match.own_found_ratio) {

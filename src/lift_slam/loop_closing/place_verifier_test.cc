@@ -90,10 +90,10 @@ TEST_F(PlaceVerifierTest, AnotherPlaceIsRefusedWithTheReason) {
 
 TEST_F(PlaceVerifierTest, AMapWhosePointsAreInAnotherShapeIsRefused) {
   // The same looks in places that do not fit: no similarity explains them.
-  Random random(3);  // a tenth to ten times as far: hardly any two agree
+  Random random(3);  // a hundredth to a hundred times as far: hardly any two agree
   for (const MapPointId id : second_.PointIds()) {
     MapPoint& point = second_.point(id);
-    point.position *= std::pow(10.0, random.Uniform(-1.0, 1.0));
+    point.position *= std::pow(10.0, random.Uniform(-2.0, 2.0));
   }
   const LoopReport report = Find(second_, *second_closer_);
   ASSERT_FALSE(report.attempts.empty());

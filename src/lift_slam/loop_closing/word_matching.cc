@@ -26,7 +26,6 @@ void MatchGroup(const KeyFrame& a, Group group_a, const KeyFrame& b, Group group
                 float max_distance, Claims& claims) {
   const DescriptorKind& kind = a.features->descriptor_kind();
   for (const std::uint32_t i : group_a) {
-    if (!a.map_points[i].valid()) continue;
     NearestTwo nearest;
     for (const std::uint32_t j : group_b) {
       if (!b.map_points[j].valid()) continue;

@@ -8,9 +8,9 @@
 
 namespace lift_slam {
 
-// Features of two keyframes that both have map points, matched within the nodes of the direct
-// index: nearest neighbour up to `max_distance`, with ratio and rotation checks; each feature of
-// `b` is used once, by its nearest. In order of a.
+// Features of keyframe `a` with those of `b` that have map points, matched within the nodes of the
+// direct index: nearest neighbour up to `max_distance`, with ratio and rotation checks; each
+// feature of `b` is used once, by its nearest. In order of a.
 std::vector<FeatureMatch> MatchPointsByWords(const KeyFrame& a, const DirectIndex& a_words,
                                              const KeyFrame& b, const DirectIndex& b_words,
                                              float max_distance);

@@ -15,6 +15,13 @@ namespace {
 constexpr int kMinFeatures = 50;
 // After a recovery the pose is rough: wider windows in the local map.
 constexpr float kWideRadiusFactor = 3.0F;
+// Weight of a frame in the smoothed share of points that are found.
+constexpr double kSmoothing = 0.05;
+
+double FoundRatio(const TrackingResult& result) {
+  return result.num_visible > 0 ? static_cast<double>(result.num_inliers) / result.num_visible
+                                : 0.0;
+}
 
 void CountSightings(const std::vector<MapPointId>& visible, const Frame& frame, Map& map) {
   for (const MapPointId id : visible) ++map.point(id).num_visible;
@@ -74,6 +81,10 @@ TrackingResult Tracker::Refuse(FrameRefusal refusal, Frame& frame, TrackingResul
 
 TrackingResult Tracker::Conclude(const Map& map, const Frame& frame, TrackingResult result) {
   adaptive_ = Adapt(adaptive_, matching_, result.num_last_matches, result.num_last_outliers);
+  const double ratio = FoundRatio(result);
+  usual_found_ratio_ = usual_found_ratio_ > 0.0
+                           ? usual_found_ratio_ + kSmoothing * (ratio - usual_found_ratio_)
+                           : ratio;
   result.reference = reference_;
   result.needs_keyframe = ShouldBecomeKeyFrame(map, result.num_inliers, reference_,
                                                frames_since_keyframe_, options_.keyframe);
@@ -87,8 +98,10 @@ TrackingResult Tracker::Relocalize(Map& map, Frame& frame, std::span<const KeyFr
   const KeyFrameId reference = reference_;
   for (const KeyFrameId keyframe : similar) {
     if (map.FindKeyFrame(keyframe) == nullptr || !TryKeyFrame(map, keyframe, frame)) continue;
-    if (TrackLocalMap(map, frame, /*wide=*/true, result) < options_.min_relocalised_inliers)
+    if (TrackLocalMap(map, frame, /*wide=*/true, result) < options_.min_relocalised_inliers ||
+        FoundRatio(result) < options_.min_relocalised_ratio * usual_found_ratio_) {
       continue;
+    }
     result.recovered = true;
     return Conclude(map, frame, result);
   }
@@ -178,6 +191,7 @@ int Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& re
   AlignMatches(map, frame);
   result.num_matches = frame.CountMatches();
   result.num_inliers = OptimizeFramePose(map, options_.pose, frame);
+  result.num_visible = static_cast<int>(matched.visible.size());
   CountSightings(matched.visible, frame, map);
   return result.num_inliers;
 }

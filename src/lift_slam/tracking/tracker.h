@@ -17,6 +17,7 @@ struct TrackingResult {
   int num_inliers = 0;
   KeyFrameId reference;  // the frame's pose is kept relative to it
   bool needs_keyframe = false;
+  int num_visible = 0;            // points of the local map that the frame should see
   bool recovered = false;         // found again without a prediction
   MatchingThresholds thresholds;  // that the frame was tracked with
   int num_last_matches = 0;       // with the last frame's points; 0 when they gave no pose
@@ -42,7 +43,8 @@ class Tracker {
   void KeyFrameMapped(const Map& map, KeyFrameId keyframe);
 
   // A lost frame that looks like these keyframes, best first: tried one after another, by
-  // descriptors alone. Succeeds with more points than usual; otherwise everything is as before.
+  // descriptors alone. Succeeds with more points than tracking needs, and a good share of those
+  // that should be seen; otherwise everything is as before.
   TrackingResult Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar);
 
   // The map has been corrected and `keyframe` is the last tracked frame: lengths in its camera
@@ -74,6 +76,7 @@ class Tracker {
   std::optional<Rigid3d> velocity_;  // cam_from_last_cam
   KeyFrameId reference_;
   int frames_since_keyframe_ = 0;
+  double usual_found_ratio_ = 0.0;  // inliers over visible points of tracked frames, smoothed
 };
 
 }  // namespace lift_slam
