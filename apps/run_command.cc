@@ -25,7 +25,7 @@ struct RunArguments {
   SequenceArguments sequence;
   ConfigArguments config;
   std::filesystem::path output;
-  std::string features, weights;  // empty: as the options say
+  std::string features, weights, vocabulary;  // empty: as the options say
   std::optional<int> seed;
   std::string mode;
 };
@@ -40,6 +40,9 @@ ProgramOptions EffectiveOptions(const RunArguments& arguments) {
   }
   if (!arguments.weights.empty()) {
     config.overrides.push_back("slam.lift_weights=" + arguments.weights);
+  }
+  if (!arguments.vocabulary.empty()) {
+    config.overrides.push_back("slam.loop_closing.vocabulary=" + arguments.vocabulary);
   }
   return config.Read();
 }
@@ -141,6 +144,10 @@ void AddRunCommand(CLI::App& app) {
   command->add_option("--output", arguments->output, "Folder for all results")->required();
   command->add_option("--features", arguments->features, "Kind of features: orb (default) or lift");
   command->add_option("--weights", arguments->weights, "LIFT weights (.safetensors)")
+      ->type_name("FILE");
+  command
+      ->add_option("--vocabulary", arguments->vocabulary,
+                   "Visual words for loop closing (default: the one shipped for the features)")
       ->type_name("FILE");
   arguments->config.AddTo(*command);
   command->add_option("--seed", arguments->seed, "Of everything random (default 0)");

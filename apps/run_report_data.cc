@@ -99,6 +99,8 @@ std::vector<ReportRow> KeyNumbers(const FinishedRun& finished) {
       {"Coverage", fmt::format("{:.1f}", 100.0 * result.coverage.coverage), "%",
        fmt::format("{} of {} frames", result.coverage.frames_ok, result.coverage.frames_total)});
   rows.push_back({"Maps", Count(run.num_maps), "", ""});
+  rows.push_back({"Loops closed", Count(run.loops_closed), "",
+                  run.place_recognition_notice.empty() ? "" : "loop closing is off"});
   rows.push_back({"Keyframes", Count(run.keyframes.size()), "", ""});
   rows.push_back({"Map points", Count(run.points.size()), "", ""});
   rows.push_back({"Speed", fmt::format("{:.1f}", FramesPerSecond(run)), "fps", "whole run"});

@@ -42,6 +42,31 @@ Json CorrectionsJson(const RunRecord& run) {
   return json;
 }
 
+// Loops, merges and relocalisations, with what was refused and why.
+Json PlacesJson(const RunRecord& run) {
+  Json json = {{"notice", run.place_recognition_notice},
+               {"loops_closed", run.loops_closed},
+               {"maps_merged", run.maps_merged},
+               {"relocalisations", run.relocalisations},
+               {"events", Json::array()}};
+  for (const PlaceEvent& event : run.place_events) {
+    json["events"].push_back({{"kind", Name(event.kind)},
+                              {"result", Name(event.rejection)},
+                              {"frame", event.frame_index},
+                              {"other_frame", event.other_frame_index},
+                              {"score", event.score},
+                              {"word_matches", event.num_word_matches},
+                              {"inliers", event.num_inliers},
+                              {"projected", event.num_projected},
+                              {"found_ratio", event.found_ratio},
+                              {"own_found_ratio", event.own_found_ratio},
+                              {"offset_ratio", event.offset_ratio},
+                              {"confirming", event.num_confirming},
+                              {"scale", event.scale}});
+  }
+  return json;
+}
+
 Json TimesJson(const std::vector<double>& times_ms) {
   const TimeSummary t = SummarizeTimes(times_ms);
   return {{"runs", t.runs},     {"median_ms", t.median_ms}, {"mean_ms", t.mean_ms},
@@ -88,6 +113,7 @@ std::string RunResultJson(const FinishedRun& finished) {
   json["states"] = StatesJson(run);
   json["refusals"] = RefusalsJson(run);
   json["counters"] = run.counters;
+  json["places"] = PlacesJson(run);
   json["calibration_corrections"] = CorrectionsJson(run);
   json["timing"] = TimingJson(run);
   json["memory"] = {{"peak_bytes", finished.provenance.peak_memory_bytes}};

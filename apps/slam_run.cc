@@ -5,6 +5,7 @@
 #include "apps/online_trajectory_writer.h"
 #include "apps/progress_bar.h"
 #include "apps/stop_signal.h"
+#include "apps/vocabulary_choice.h"
 #include "lift_slam/datasets/prefetching_sequence.h"
 #include "lift_slam/slam/feature_options.h"
 #include "lift_slam/slam/pipeline.h"
@@ -62,6 +63,7 @@ class RunObserver {
       state_ = frame.state;
       refusal_ = frame.refusal;
     }
+    LogPlaces(frame.frame_index);
     Update();
     bar_.Update(progress_);
     ++progress_.frames_done;
@@ -72,6 +74,20 @@ class RunObserver {
   }
 
  private:
+  void LogPlaces(std::int64_t frame_index) {
+    const auto& events = system_.place_events();
+    for (; num_place_events_ < events.size(); ++num_place_events_) {
+      const PlaceEvent& event = events[num_place_events_];
+      const bool is_accepted = event.rejection == PlaceRejection::kAccepted;
+      log_.Info(fmt::format(
+          "frame {}: {} with frame {}: {} (score {:.3f}, {} by words, {} inliers, {} seen = {:.2f} "
+          "of {:.2f}, offset {:.2f}, {} confirm{})",
+          frame_index, Name(event.kind), event.other_frame_index, Name(event.rejection),
+          event.score, event.num_word_matches, event.num_inliers, event.num_projected,
+          event.found_ratio, event.own_found_ratio, event.offset_ratio, event.num_confirming,
+          is_accepted ? fmt::format(", scale {:.3f}", event.scale) : std::string()));
+    }
+  }
   void Update() {
     progress_.state = Name(system_.state());
     progress_.keyframes = system_.num_keyframes();
@@ -81,6 +97,7 @@ class RunObserver {
   OnlineTrajectoryWriter online_;
   const SlamSystem& system_;
   RunLog& log_;
+  std::size_t num_place_events_ = 0;  // logged
   ProgressBar bar_;
   Progress progress_;
   TrackingState state_ = TrackingState::kInitializing;
@@ -99,8 +116,10 @@ RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& opti
   slam.seed = options.seed;
   auto extractor = CreateFeatureExtractor(slam.features);
   if (const std::string notice = extractor->Notice(); !notice.empty()) log.Warning(notice);
+  const VocabularyChoice places = ChooseVocabulary(slam.loop_closing, extractor->descriptor_kind());
+  if (!places.notice.empty()) log.Info("loop closing and relocalisation are off: " + places.notice);
   FramePreparer preparer(*info.camera, std::move(extractor), slam.alignment);
-  SlamSystem system(*info.camera, preparer.view(), slam);
+  SlamSystem system(*info.camera, preparer.view(), slam, places.vocabulary);
   const StopSignal stop;
   RunObserver observer(folder, info.num_frames, system, log);
   const Timer timer;
@@ -114,6 +133,7 @@ RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& opti
   observer.Finish();
   RunRecord record = system.Finish();
   record.wall_time_s = timer.ElapsedMs() * 1e-3;
+  record.place_recognition_notice = places.notice;
   record.interrupted = stop.Requested();
   if (record.interrupted) log.Warning(fmt::format("ended early by {}", stop.Name()));
   return record;

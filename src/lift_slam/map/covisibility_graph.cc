@@ -26,6 +26,15 @@ void CovisibilityGraph::Erase(KeyFrameId keyframe) {
   edges_.erase(found);
 }
 
+void CovisibilityGraph::Absorb(const CovisibilityGraph& other, int offset) {
+  for (const auto& [keyframe, neighbors] : other.edges_) {
+    auto& moved = edges_[KeyFrameId(keyframe.value + offset)];
+    for (const auto& [neighbor, shared] : neighbors) {
+      moved[KeyFrameId(neighbor.value + offset)] = shared;
+    }
+  }
+}
+
 int CovisibilityGraph::SharedPoints(KeyFrameId a, KeyFrameId b) const {
   const auto from = edges_.find(a);
   if (from == edges_.end()) return 0;

@@ -19,6 +19,8 @@ class CovisibilityGraph {
   // Adds `change` shared points to the edge a-b; a != b.
   void AddShared(KeyFrameId a, KeyFrameId b, int change);
   void Erase(KeyFrameId keyframe);
+  // Takes over another graph's edges, with ids moved up by `offset`.
+  void Absorb(const CovisibilityGraph& other, int offset);
 
   int SharedPoints(KeyFrameId a, KeyFrameId b) const;
   // Neighbours that share at least `min_shared` points, most shared first, ties by id; at most

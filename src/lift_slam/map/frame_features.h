@@ -24,6 +24,7 @@ class FrameFeatures {
   Eigen::Vector2d pixel(int i) const { return undistorted_[Index(i)].cast<double>(); }
   DescriptorView descriptor(int i) const { return features_.descriptors.row(Index(i)); }
   const DescriptorKind& descriptor_kind() const { return features_.descriptors.kind(); }
+  const Descriptors& descriptors() const { return features_.descriptors; }
 
   // Calls visit(i) for the features whose undistorted pixel lies in the square of half side
   // `radius_px` around (x, y); by grid cell, in order of index within a cell.

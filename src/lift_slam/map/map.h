@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "lift_slam/geometry/sim3.h"
 #include "lift_slam/map/covisibility_graph.h"
 #include "lift_slam/map/frame.h"
 #include "lift_slam/map/map_point.h"
@@ -71,6 +72,17 @@ class Map {
   };
   std::optional<Reference> ResolveReference(KeyFrameId id) const;
 
+  // Poses and points have been moved and scaled: `scale_of_keyframe`, by id, is the factor of the
+  // lengths in each keyframe's camera frame. What erased keyframes left behind follows.
+  void ScaleReferences(const std::vector<double>& scale_of_keyframe);
+
+  // By how much Absorb moved the ids of the other map up.
+  struct IdOffset {
+    int keyframes = 0, points = 0;
+  };
+  // Takes over all of another map, moved and scaled into this one's world. Nothing is fused.
+  IdOffset Absorb(Map&& other, const Sim3d& world_from_other_world);
+
   // Normal, distance range and descriptor from the present observations.
   void UpdateAppearance(MapPointId id);
   // Only normal and distance range: after positions have moved.
@@ -81,6 +93,9 @@ class Map {
 
  private:
   KeyFrame& mutable_keyframe(KeyFrameId id);
+  void AbsorbKeyFrames(Map& other, const IdOffset& offset, const Sim3d& world_from_other_world);
+  void AbsorbPoints(Map& other, const IdOffset& offset, const Sim3d& world_from_other_world);
+  void LetGoOfOldImages();
   void ShareWithObservers(const MapPoint& point, KeyFrameId keyframe, int change);
 
   std::shared_ptr<const ViewModel> view_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "lift_slam/map/keyframe_scales.h"
+#include "lift_slam/map/map_consistency_for_test.h"
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/random.h"
 
@@ -47,31 +49,7 @@ class MapTest : public testing::Test {
     }
   }
 
-  // Points and keyframes must name each other, and edges must count shared points.
-  void ExpectConsistent() const {
-    for (const MapPointId id : map_.PointIds()) {
-      for (const auto& observation : map_.point(id).observations) {
-        EXPECT_EQ(map_.keyframe(observation.keyframe)
-                      .map_points[static_cast<std::size_t>(observation.feature)],
-                  id);
-      }
-    }
-    for (const KeyFrameId a : map_.KeyFrameIds()) {
-      for (const MapPointId id : map_.keyframe(a).map_points) {
-        if (id.valid()) {
-          EXPECT_GE(map_.point(id).FeatureIn(a), 0);
-        }
-      }
-      for (const KeyFrameId b : map_.KeyFrameIds()) {
-        if (a == b) continue;
-        int shared = 0;
-        for (const MapPointId id : map_.PointIds()) {
-          shared += map_.point(id).FeatureIn(a) >= 0 && map_.point(id).FeatureIn(b) >= 0 ? 1 : 0;
-        }
-        EXPECT_EQ(map_.covisibility().SharedPoints(a, b), shared);
-      }
-    }
-  }
+  void ExpectConsistent() const { lift_slam::ExpectConsistent(map_); }
 
   std::shared_ptr<const ViewModel> view_;
   Map map_;
@@ -149,6 +127,64 @@ TEST_F(MapTest, ErasedKeyFrameResolvesToItsNeighbourWithTheSamePose) {
       reference->cam_from_keyframe * map_.keyframe(reference->keyframe).cam_from_world;
   EXPECT_LT((after.translation - before.translation).norm(), 1e-12);
   ExpectConsistent();
+}
+
+TEST_F(MapTest, WhatAnErasedKeyFrameLeftIsScaledWithTheOneThatStandsForIt) {
+  map_.EraseKeyFrame(keyframes_[1]);
+  const auto before = map_.ResolveReference(keyframes_[1]);
+  std::vector<double> scales(3, 1.0);
+  scales[before->keyframe.index()] = 2.5;
+  map_.ScaleReferences(scales);
+  const auto after = map_.ResolveReference(keyframes_[1]);
+  EXPECT_LT(
+      (after->cam_from_keyframe.translation - 2.5 * before->cam_from_keyframe.translation).norm(),
+      1e-12);
+}
+
+TEST_F(MapTest, AbsorbedMapKeepsItsShapeInTheOtherWorld) {
+  Map other(view_);
+  std::vector<KeyFrameId> keyframes;
+  for (int k = 0; k < 4; ++k) {
+    keyframes.push_back(other.AddKeyFrame(MakeFrame(*view_, 10 + k, {0.1 * k, 0.3, 0.0})));
+  }
+  const MapPointId point = other.AddPoint({0.3, 0.2, 2.0}, keyframes[3]);
+  for (const KeyFrameId id : keyframes) other.AddObservation(point, id, 2);
+  other.UpdateAppearance(point);
+  other.EraseKeyFrame(keyframes[1]);
+  const Eigen::Vector3d in_cam =
+      other.keyframe(keyframes[3]).cam_from_world * other.point(point).position;
+  const double max_distance = other.point(point).max_distance;
+
+  const Sim3d moved(2.0, Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY())),
+                    {1.0, 2.0, 3.0});
+  const Map::IdOffset offset = map_.Absorb(std::move(other), moved);
+  EXPECT_EQ(offset.keyframes, 3);
+  EXPECT_EQ(offset.points, kFeatures);
+  EXPECT_EQ(map_.num_keyframes(), 6);
+  EXPECT_EQ(map_.num_points(), kFeatures + 1);
+  EXPECT_EQ(map_.newest_keyframe(), KeyFrameId(6));
+  const KeyFrame& last = map_.keyframe(KeyFrameId(6));
+  EXPECT_EQ(last.frame_index, 13);
+  const MapPoint& absorbed = map_.point(MapPointId(kFeatures));
+  // Twice as far away for the camera, in the same direction.
+  EXPECT_LT((last.cam_from_world * absorbed.position - 2.0 * in_cam).norm(), 1e-12);
+  EXPECT_NEAR(absorbed.max_distance, 2.0 * max_distance, 1e-12);
+  const auto reference = map_.ResolveReference(KeyFrameId(4));
+  ASSERT_TRUE(reference.has_value());
+  EXPECT_GE(reference->keyframe, KeyFrameId(3));
+  ExpectConsistent();
+}
+
+TEST_F(MapTest, ScalesOfKeyFramesAreThoseOfTheirDepths) {
+  const KeyFrameScales before(map_);
+  map_.EraseKeyFrame(keyframes_[1]);
+  for (const MapPointId id : map_.PointIds()) map_.point(id).position *= 3.0;
+  for (const KeyFrameId id : map_.KeyFrameIds()) {
+    Rigid3d pose = map_.keyframe(id).cam_from_world;
+    pose.translation *= 3.0;
+    map_.SetPose(id, pose);
+  }
+  for (const double scale : before.ChangesIn(map_)) EXPECT_NEAR(scale, 3.0, 1e-9);
 }
 
 TEST_F(MapTest, TakenFeatureIsRefused) {

@@ -31,8 +31,9 @@ int FindFeature(const Map& map, const KeyFrame& keyframe, const MapPoint& point,
   return nearest.best_distance <= max_distance ? nearest.best : -1;
 }
 
-// The observations that come along are aligned to the patch of the point that stays.
-void MergeAndAlign(MapPointId from, MapPointId into, Map& map) {
+}  // namespace
+
+void MergeAndAlignPoints(MapPointId from, MapPointId into, Map& map) {
   const std::vector<MapPoint::Observation> moved = map.point(from).observations;
   map.MergePoints(from, into);
   for (const auto& observation : moved) {
@@ -42,10 +43,8 @@ void MergeAndAlign(MapPointId from, MapPointId into, Map& map) {
   }
 }
 
-}  // namespace
-
 FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe_id, float radius_px,
-                        float max_distance, Map& map) {
+                        float max_distance, Map& map, FusionWinner winner) {
   FusionCounts counts;
   for (const MapPointId id : points) {
     const MapPoint* point = map.FindPoint(id);
@@ -61,8 +60,9 @@ FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe_
       AlignObservation(id, keyframe_id, map);
       ++counts.observations_added;
     } else {
-      const bool keep_present = map.point(present).num_observations() > point->num_observations();
-      MergeAndAlign(keep_present ? id : present, keep_present ? present : id, map);
+      const bool keep_present = winner == FusionWinner::kMoreObserved &&
+                                map.point(present).num_observations() > point->num_observations();
+      MergeAndAlignPoints(keep_present ? id : present, keep_present ? present : id, map);
       ++counts.points_merged;
     }
   }

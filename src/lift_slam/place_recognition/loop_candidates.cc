@@ -130,6 +130,26 @@ std::vector<RecognizedGroup> CheckConsistency(std::span<const RecognizedGroup> p
   return groups;
 }
 
+std::string_view Name(CandidateRejection rejection) {
+  switch (rejection) {
+    case CandidateRejection::kAccepted:
+      return "accepted";
+    case CandidateRejection::kFewCommonWords:
+      return "few_common_words";
+    case CandidateRejection::kLowScore:
+      return "low_score";
+    case CandidateRejection::kWeakGroup:
+      return "weak_group";
+    case CandidateRejection::kNotBestOfGroup:
+      return "not_best_of_group";
+    case CandidateRejection::kInconsistent:
+      return "inconsistent";
+    case CandidateRejection::kCount:
+      break;
+  }
+  return "unknown";
+}
+
 std::string_view Explain(CandidateRejection rejection) {
   switch (rejection) {
     case CandidateRejection::kAccepted:
@@ -144,6 +164,8 @@ std::string_view Explain(CandidateRejection rejection) {
       return "Another keyframe of its group stands for it.";
     case CandidateRejection::kInconsistent:
       return "Its place was not recognised in enough keyframes in a row.";
+    case CandidateRejection::kCount:
+      break;
   }
   return "unknown";
 }

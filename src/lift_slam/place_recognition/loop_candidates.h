@@ -26,7 +26,11 @@ enum class CandidateRejection {
   kWeakGroup,       // it and its covisible candidates together score far below the best group
   kNotBestOfGroup,  // a covisible candidate of a kept group is better and stands for it
   kInconsistent,    // its place was not recognised in enough keyframes in a row (yet)
+  kCount
 };
+inline constexpr std::size_t kNumCandidateRejections =
+    static_cast<std::size_t>(CandidateRejection::kCount);
+std::string_view Name(CandidateRejection rejection);  // "few_common_words"
 // One sentence for people.
 std::string_view Explain(CandidateRejection rejection);
 

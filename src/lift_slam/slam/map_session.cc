@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lift_slam/map/keyframe_scales.h"
 #include "lift_slam/optimization/map_calibration.h"
 #include "lift_slam/util/timer.h"
 
@@ -20,16 +21,23 @@ std::vector<int> MatchedFeatures(const Frame& frame) {
 
 }  // namespace
 
-MapSession::MapSession(InitialMap initial, const GrayImage& image, const SlamOptions& options)
+MapSession::MapSession(InitialMap initial, const GrayImage& image, const SlamOptions& options,
+                       std::shared_ptr<const Vocabulary> vocabulary)
     : map_(std::move(initial.map)),
       tracker_(options.tracker, options.matching, static_cast<std::uint64_t>(options.seed)),
       mapper_(options.local_mapper, options.local_bundle),
+      correction_options_(options.loop_closing.correction),
       tracker_options_(options.tracker) {
+  if (vocabulary) {
+    loop_closer_.emplace(options.loop_closing, std::move(vocabulary),
+                         static_cast<std::uint64_t>(options.seed));
+  }
   const KeyFrameId second = map_->newest_keyframe();
   Frame& current = initial.current;
   Backfill(std::move(initial.waiting), current);
   mapper_.Process(second, map_->view().thresholds.fixed.low, *map_);
   RememberGray(second, image);
+  if (loop_closer_) loop_closer_->Update(*map_);
   tracker_.Start(*map_, current, initial_velocity_);
   frames_.push_back({current.frame_index, second, Rigid3d()});
 }
@@ -60,13 +68,29 @@ MapSession::Step MapSession::Process(const PreparedFrame& prepared) {
   Frame frame = prepared.MakeFrame();
   step.tracking = tracker_.Track(*map_, frame);
   step.track_ms = track_timer.ElapsedMs();
-  if (step.tracking.refusal != FrameRefusal::kNone) return step;
+  if (step.tracking.refusal == FrameRefusal::kNone) Finish(prepared, frame, step);
+  return step;
+}
 
+MapSession::Step MapSession::Relocalize(const PreparedFrame& prepared) {
+  Step step;
+  step.tracking.refusal = FrameRefusal::kTooFewTracked;
+  if (!loop_closer_) return step;
+  const Timer track_timer;
+  Frame frame = prepared.MakeFrame();
+  step.tracking =
+      tracker_.Relocalize(*map_, frame, loop_closer_->FindSimilar(*frame.features, *map_));
+  step.track_ms = track_timer.ElapsedMs();
+  if (step.tracking.refusal == FrameRefusal::kNone) Finish(prepared, frame, step);
+  return step;
+}
+
+void MapSession::Finish(const PreparedFrame& prepared, Frame& frame, Step& step) {
   step.tracked_features = MatchedFeatures(frame);
   FrameReference reference{frame.frame_index, step.tracking.reference, Rigid3d()};
   if (step.tracking.needs_keyframe) {
     const Timer map_timer;
-    step.mapping = InsertKeyFrame(frame, prepared.input.image);
+    InsertKeyFrame(prepared.input.image, frame, step);
     step.map_ms = map_timer.ElapsedMs();
     reference.reference = map_->newest_keyframe();
   } else {
@@ -75,36 +99,93 @@ MapSession::Step MapSession::Process(const PreparedFrame& prepared) {
   }
   step.world_from_cam = Inverse(frame.cam_from_world);
   frames_.push_back(reference);
-  return step;
 }
 
-MappingReport MapSession::InsertKeyFrame(Frame& frame, const GrayImage& image) {
+void MapSession::InsertKeyFrame(const GrayImage& image, Frame& frame, Step& step) {
   const KeyFrameId keyframe = map_->AddKeyFrame(frame);
-  MappingReport report = mapper_.Process(keyframe, tracker_.Thresholds(*map_).low, *map_);
+  step.mapping = mapper_.Process(keyframe, tracker_.Thresholds(*map_).low, *map_);
   RememberGray(keyframe, image);
   tracker_.KeyFrameMapped(*map_, keyframe);
+  if (loop_closer_) {
+    step.loop = loop_closer_->Process(keyframe, *map_);
+    if (step.loop->closed()) {
+      const std::vector<double>& scale = step.loop->correction->scale_of_keyframe;
+      ScaleFrames(scale);
+      tracker_.MapCorrected(*map_, keyframe, scale[keyframe.index()]);
+    }
+  }
   frame.cam_from_world = map_->keyframe(keyframe).cam_from_world;
-  return report;
+}
+
+void MapSession::ScaleFrames(const std::vector<double>& scale_of_keyframe) {
+  for (FrameReference& frame : frames_) {
+    frame.cam_from_reference.translation *= scale_of_keyframe[frame.reference.index()];
+  }
+}
+
+std::int64_t MapSession::FrameIndexOf(KeyFrameId keyframe) const {
+  const auto reference = map_->ResolveReference(keyframe);
+  return reference ? map_->keyframe(reference->keyframe).frame_index : -1;
+}
+
+LoopReport MapSession::FindNewestIn(const MapSession& other) const {
+  if (!loop_closer_ || !other.loop_closer_) return {};
+  return loop_closer_->FindInOtherMap(map_->newest_keyframe(), *map_, *other.map_,
+                                      *other.loop_closer_);
+}
+
+FusionCounts MapSession::Absorb(MapSession&& other, const PlaceAttempt& attempt, MergeSide side) {
+  const bool query_is_mine = side == MergeSide::kQueryIsMine;
+  const Map& query_map = query_is_mine ? *map_ : *other.map_;
+  const Rigid3d world_from_query = Inverse(query_map.keyframe(attempt.edge.query).cam_from_world);
+  const Sim3d query_world_from_candidate_world =
+      Sim3d(1.0, world_from_query.rotation, world_from_query.translation) *
+      attempt.match.query_from_candidate_world;
+  const Sim3d world_from_other =
+      query_is_mine ? query_world_from_candidate_world : Inverse(query_world_from_candidate_world);
+  const Map::IdOffset offset = map_->Absorb(std::move(*other.map_), world_from_other);
+
+  PlaceAttempt merged = attempt;
+  KeyFrameId& moved = query_is_mine ? merged.edge.candidate : merged.edge.query;
+  moved.value += offset.keyframes;
+  if (query_is_mine) {
+    for (MapPointId& point : merged.match.points) point.value += point.valid() ? offset.points : 0;
+  }
+  const FusionCounts fused = FusePlaces(merged.match, merged.edge, correction_options_, *map_);
+  loop_closer_->Absorb(*other.loop_closer_, offset.keyframes, merged.edge);
+
+  for (FrameReference frame : other.frames_) {
+    frame.reference.value += offset.keyframes;
+    frame.cam_from_reference.translation *= world_from_other.scale;
+    frames_.push_back(frame);
+  }
+  gray_.resize(static_cast<std::size_t>(offset.points), kUnknownGray);
+  gray_.insert(gray_.end(), other.gray_.begin(), other.gray_.end());
+  num_backfilled_ += other.num_backfilled_;
+  if (!query_is_mine) tracker_ = std::move(other.tracker_);
+  tracker_.MapCorrected(*map_, merged.edge.query, query_is_mine ? 1.0 : world_from_other.scale);
+  return fused;
 }
 
 void MapSession::AdjustFinally(const BundleOptions& bundle,
                                const SelfCalibrationOptions& calibration, StageTimes& times_ms) {
+  const KeyFrameScales before(*map_);
   const bool is_short = IsCalibratedAsAWhole(calibration, *map_);
-  Timer timer;
-  if (is_short) {
-    AdjustWholeMap(bundle, CalibrationCorrection(), *map_);
+  const auto adjust = [&] {
+    const Timer timer;
+    AdjustWholeMap(bundle, correction_, *map_);
     times_ms["final_bundle"].push_back(timer.ElapsedMs());
-    timer = Timer();
-  }
+  };
+  if (is_short) adjust();
+  const Timer timer;
   const SelfCalibrationReport report =
       is_short ? SelfCalibrateMap(calibration, *map_) : EstimateCalibration(calibration, *map_);
   times_ms["self_calibration"].push_back(timer.ElapsedMs());
   if (report.usable) correction_ = report.correction;
-  if (!is_short) {
-    timer = Timer();
-    AdjustWholeMap(bundle, correction_, *map_);
-    times_ms["final_bundle"].push_back(timer.ElapsedMs());
-  }
+  if (!is_short) adjust();
+  const std::vector<double> scales = before.ChangesIn(*map_);
+  map_->ScaleReferences(scales);
+  ScaleFrames(scales);
 }
 
 void MapSession::RememberGray(KeyFrameId keyframe_id, const GrayImage& image) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lift_slam/local_mapping/local_mapper.h"
+#include "lift_slam/loop_closing/loop_closer.h"
 #include "lift_slam/slam/frame_preparer.h"
 #include "lift_slam/slam/run_record.h"
 #include "lift_slam/slam/slam_options.h"
@@ -27,22 +28,39 @@ class MapSession {
     Rigid3d cam_from_reference;
   };
 
-  MapSession(InitialMap initial, const GrayImage& image, const SlamOptions& options);
+  // Without a vocabulary no place is recognised.
+  MapSession(InitialMap initial, const GrayImage& image, const SlamOptions& options,
+             std::shared_ptr<const Vocabulary> vocabulary);
 
   struct Step {
     TrackingResult tracking;
     std::optional<MappingReport> mapping;  // when the frame became a keyframe
+    std::optional<LoopReport> loop;        // the same, with a vocabulary
     Rigid3d world_from_cam;                // valid when tracked
     std::vector<int> tracked_features;     // features that agree with a map point
     double track_ms = 0.0, map_ms = 0.0;
   };
   Step Process(const PreparedFrame& prepared);
+  // Looks for a lost frame in the whole map by its words (nothing without a vocabulary); refused
+  // when it shows no place of the map.
+  Step Relocalize(const PreparedFrame& prepared);
+
+  // Looks for the newest keyframe of this map in another one; see LoopCloser::FindInOtherMap.
+  LoopReport FindNewestIn(const MapSession& other) const;
+  // Takes over all of another session, whose map shows the place of `attempt`: its candidate is
+  // this map's and its query the other's newest keyframe, or the other way round. Tracking goes on
+  // from the query, which is the frame tracked last.
+  enum class MergeSide { kQueryIsOthers, kQueryIsMine };
+  FusionCounts Absorb(MapSession&& other, const PlaceAttempt& attempt, MergeSide side);
 
   const Map& map() const { return *map_; }
   Map& mutable_map() { return *map_; }
   const std::vector<FrameReference>& frames() const { return frames_; }
+  // Keyframe that stands for a frame's place in a report; -1: gone.
+  std::int64_t FrameIndexOf(KeyFrameId keyframe) const;
   // After the last frame: bundle adjustment of the whole map and self-calibration; the correction
-  // is kept. A long map is calibrated first, on a part, and adjusted once.
+  // is kept. A long map is calibrated first, on a part, and adjusted once. Frames keep their
+  // places between the keyframes.
   void AdjustFinally(const BundleOptions& bundle, const SelfCalibrationOptions& calibration,
                      StageTimes& times_ms);
   const CalibrationCorrection& correction() const { return correction_; }
@@ -54,12 +72,17 @@ class MapSession {
 
  private:
   void Backfill(std::vector<Frame> waiting, const Frame& current);
-  MappingReport InsertKeyFrame(Frame& frame, const GrayImage& image);
+  void InsertKeyFrame(const GrayImage& image, Frame& frame, Step& step);
+  void Finish(const PreparedFrame& prepared, Frame& frame, Step& step);
+  // Frames follow their reference keyframes, by id, whose lengths have changed by these factors.
+  void ScaleFrames(const std::vector<double>& scale_of_keyframe);
   void RememberGray(KeyFrameId keyframe, const GrayImage& image);
 
   std::unique_ptr<Map> map_;
   Tracker tracker_;
   LocalMapper mapper_;
+  std::optional<LoopCloser> loop_closer_;
+  LoopCorrectionOptions correction_options_;
   TrackerOptions tracker_options_;
   std::vector<FrameReference> frames_;
   std::optional<Rigid3d> initial_velocity_;

@@ -1,7 +1,10 @@
 #include "lift_slam/slam/run_for_test.h"
 
+#include <cstdlib>
+#include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "lift_slam/place_recognition/vocabulary.h"
 #include "lift_slam/slam/feature_options.h"
 #include "lift_slam/slam/slam_system.h"
 
@@ -13,7 +16,7 @@ using NextFrame = std::function<std::optional<InputFrame>()>;
 RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const NextFrame& next) {
   FramePreparer preparer(camera, CreateFeatureExtractor(options.slam.features),
                          options.slam.alignment);
-  SlamSystem system(camera, preparer.view(), options.slam);
+  SlamSystem system(camera, preparer.view(), options.slam, options.vocabulary);
   RunPipeline(
       options.mode,
       {[&] {
@@ -71,6 +74,12 @@ Trajectory TrueTrajectory(const SyntheticSequenceOptions& options) {
     truth.push_back({i, sequence.TimestampNs(i), sequence.WorldFromCam(i), PoseState::kOk});
   }
   return truth;
+}
+
+std::shared_ptr<const Vocabulary> ShippedOrbVocabulary() {
+  const char* source = std::getenv("LIFT_SLAM_SOURCE_DIR");
+  const std::filesystem::path root = source != nullptr ? source : ".";
+  return std::make_shared<Vocabulary>(root / "vocabularies" / "orb.vocabulary");
 }
 
 EvaluationResult Judge(const RunRecord& run, const Trajectory& truth) {

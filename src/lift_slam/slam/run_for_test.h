@@ -15,6 +15,7 @@ namespace lift_slam {
 struct TestRunOptions {
   RunMode mode = RunMode::kSequential;
   SlamOptions slam;
+  std::shared_ptr<const Vocabulary> vocabulary;  // null: no place is recognised
   // Changes a frame before the pipeline sees it.
   std::function<void(InputFrame&)> change_frame;
   // As in PipelineCallbacks; nothing: run to the end.
@@ -30,6 +31,9 @@ RunRecord RunSynthetic(const SyntheticSequenceOptions& sequence);  // default op
 RunRecord RunSequence(std::unique_ptr<Sequence> sequence, const TestRunOptions& options);
 
 Trajectory TrueTrajectory(const SyntheticSequenceOptions& sequence);
+// The one shipped for ORB; the test's environment says where.
+std::shared_ptr<const Vocabulary> ShippedOrbVocabulary();
+
 // The final trajectory against the truth, which may be empty.
 EvaluationResult Judge(const RunRecord& run, const Trajectory& truth);
 

@@ -5,11 +5,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lift_slam/camera/camera.h"
 #include "lift_slam/geometry/trajectory.h"
 #include "lift_slam/image/image.h"
+#include "lift_slam/loop_closing/place_match.h"
 #include "lift_slam/optimization/self_calibration.h"
 #include "lift_slam/tracking/tracking_state.h"
 
@@ -55,6 +57,22 @@ struct KeyFrameRecord {
   int map_index = 0;
 };
 
+enum class PlaceEventKind { kLoop, kMerge, kRelocalisation };
+std::string_view Name(PlaceEventKind kind);  // "loop"
+
+// A keyframe that looked like an earlier one and was compared with it by geometry; or a lost frame
+// that was found again by its look.
+struct PlaceEvent {
+  PlaceEventKind kind = PlaceEventKind::kLoop;
+  PlaceRejection rejection = PlaceRejection::kAccepted;
+  std::int64_t frame_index = -1;        // in the source sequence
+  std::int64_t other_frame_index = -1;  // of the earlier one
+  double score = 0.0;                   // of the images' words; 0 for a relocalisation
+  int num_word_matches = 0, num_inliers = 0, num_projected = 0, num_confirming = 0;
+  double found_ratio = 0.0, own_found_ratio = 0.0, offset_ratio = 0.0;  // see PlaceMatch
+  double scale = 1.0;  // by which a closed loop changed lengths at this frame
+};
+
 // A frame picture with its tracked points, for the report.
 struct AnnotatedFrame {
   struct Mark {
@@ -79,6 +97,7 @@ struct RunRecord {
   std::vector<KeyFrameRecord> keyframes;  // of all maps kept, by time
   std::vector<PointRecord> points;        // of all maps kept
   std::vector<AnnotatedFrame> annotated_frames;
+  std::vector<PlaceEvent> place_events;  // in order of time
   // What self-calibration found the calibration to be off by, by map; identity: nothing done.
   std::vector<CalibrationCorrection> corrections;
   StageTimes stage_times_ms;
@@ -86,7 +105,9 @@ struct RunRecord {
   int lost_events = 0;  // tracking -> lost
   int relocalisations = 0;
   int loops_closed = 0;
-  double wall_time_s = 0.0;  // whole run without start-up
+  int maps_merged = 0;
+  std::string place_recognition_notice;  // why it was off; empty: it was on
+  double wall_time_s = 0.0;              // whole run without start-up
   // How often each refusal happened, by FrameRefusal.
   std::array<int, static_cast<std::size_t>(FrameRefusal::kCount)> refusals{};
   // Why frames with a pose made no keyframe, why points were culled and so on: "stage.reason" -> n.

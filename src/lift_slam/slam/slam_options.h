@@ -4,6 +4,7 @@
 
 #include "lift_slam/image/patch_alignment.h"
 #include "lift_slam/local_mapping/local_mapper_options.h"
+#include "lift_slam/loop_closing/loop_closing_options.h"
 #include "lift_slam/matching/adaptive_thresholds.h"
 #include "lift_slam/optimization/bundle_adjustment.h"
 #include "lift_slam/slam/feature_options.h"
@@ -23,6 +24,7 @@ struct SlamOptions {
   MapInitializerOptions initializer;
   TrackerOptions tracker;
   LocalMapperOptions local_mapper;
+  LoopClosingOptions loop_closing;
   BundleOptions local_bundle;  // also of the first map
   BundleOptions final_bundle = FinalBundleDefaults();
   SelfCalibrationOptions self_calibration;  // after the final bundle adjustment
@@ -43,6 +45,7 @@ struct SlamOptions {
     visitor.Group("initializer", initializer, "how a map is begun");
     visitor.Group("tracker", tracker, "image to pose");
     visitor.Group("local_mapper", local_mapper, "keyframe to map");
+    visitor.Group("loop_closing", loop_closing, "places seen before");
     visitor.Group("local_bundle", local_bundle, "local bundle adjustment");
     visitor.Group("final_bundle", final_bundle, "bundle adjustment of whole maps at the end");
     visitor.Group("self_calibration", self_calibration,

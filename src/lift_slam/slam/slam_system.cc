@@ -6,8 +6,11 @@
 namespace lift_slam {
 
 SlamSystem::SlamSystem(const Camera& camera, std::shared_ptr<const ViewModel> view,
-                       const SlamOptions& options)
-    : camera_(camera), view_(std::move(view)), options_(options) {
+                       const SlamOptions& options, std::shared_ptr<const Vocabulary> vocabulary)
+    : camera_(camera),
+      view_(std::move(view)),
+      options_(options),
+      maps_(options, std::move(vocabulary), record_) {
   options_.matching.Check();
   BeginInitializing();
 }
@@ -28,9 +31,9 @@ const FrameRecord& SlamSystem::Process(const PreparedFrame& prepared) {
   if (prepared.features) {
     record.num_features = prepared.features->size();
     record_.stage_times_ms["extract"].push_back(prepared.extract_ms);
-    if (session_) {
+    if (maps_.active() != nullptr) {
       ProcessTracking(prepared, record);
-    } else {
+    } else if (maps_.maps().empty() || !Relocalize(prepared, record)) {
       ProcessInitializing(prepared, record);
     }
   }
@@ -48,21 +51,21 @@ void SlamSystem::ProcessInitializing(const PreparedFrame& prepared, FrameRecord&
   record.num_matches = result.num_matches;
   std::vector<int> tracked;
   if (result.initial) {
-    session_ =
-        std::make_unique<MapSession>(std::move(*result.initial), prepared.input.image, options_);
+    maps_.Begin(std::move(*result.initial), prepared.input.image);
     initializer_.reset();
     state_ = TrackingState::kTracking;
     last_tracked_ns_ = record.timestamp_ns;
-    const KeyFrame& newest = session_->map().keyframe(session_->map().newest_keyframe());
+    const KeyFrame& newest =
+        maps_.active()->map().keyframe(maps_.active()->map().newest_keyframe());
     record.world_from_cam = Inverse(newest.cam_from_world);
     record.is_keyframe = true;
-    record.map_index = static_cast<int>(finished_.size());
+    record.map_index = maps_.active_index();
     for (int i = 0; i < newest.features->size(); ++i) {
       if (newest.map_points[static_cast<std::size_t>(i)].valid()) tracked.push_back(i);
     }
     record.num_inliers = static_cast<int>(tracked.size());
     record_.counters["initializer.maps_begun"] += 1;
-    record_.counters["initializer.frames_backfilled"] += session_->num_backfilled();
+    record_.counters["initializer.frames_backfilled"] += maps_.active()->num_backfilled();
   }
   record.track_ms = timer.ElapsedMs();
   record_.stage_times_ms["initialize"].push_back(record.track_ms);
@@ -71,7 +74,22 @@ void SlamSystem::ProcessInitializing(const PreparedFrame& prepared, FrameRecord&
 }
 
 void SlamSystem::ProcessTracking(const PreparedFrame& prepared, FrameRecord& record) {
-  const MapSession::Step step = session_->Process(prepared);
+  const MapSession::Step step = maps_.active()->Process(prepared);
+  RecordTracked(step, prepared, record);
+  if (record.refusal != FrameRefusal::kNone) HandleLost(prepared, record);
+}
+
+bool SlamSystem::Relocalize(const PreparedFrame& prepared, FrameRecord& record) {
+  const auto step = maps_.Relocalize(prepared);
+  if (!step) return false;
+  state_ = TrackingState::kLost;  // until this frame
+  initializer_.reset();
+  RecordTracked(*step, prepared, record);
+  return true;
+}
+
+void SlamSystem::RecordTracked(const MapSession::Step& step, const PreparedFrame& prepared,
+                               FrameRecord& record) {
   record.refusal = step.tracking.refusal;
   record.num_matches = step.tracking.num_matches;
   record.num_inliers = step.tracking.num_inliers;
@@ -79,21 +97,19 @@ void SlamSystem::ProcessTracking(const PreparedFrame& prepared, FrameRecord& rec
   record.high_threshold = step.tracking.thresholds.high;
   record.num_last_matches = step.tracking.num_last_matches;
   record.num_last_outliers = step.tracking.num_last_outliers;
-  record.track_ms = step.track_ms;
-  record.map_ms = step.map_ms;
+  record.track_ms += step.track_ms;
+  record.map_ms += step.map_ms;
   record_.stage_times_ms["track"].push_back(step.track_ms);
+  if (record.refusal != FrameRefusal::kNone) return;
   if (step.mapping) CountMapping(*step.mapping);
-  if (record.refusal != FrameRefusal::kNone) {
-    HandleLost(prepared, record);
-  } else {
-    if (state_ == TrackingState::kLost) ++record_.relocalisations;
-    if (step.tracking.recovered) ++record_.counters["tracking.recovered_by_descriptors"];
-    state_ = TrackingState::kTracking;
-    last_tracked_ns_ = record.timestamp_ns;
-    record.world_from_cam = step.world_from_cam;
-    record.is_keyframe = step.mapping.has_value();
-    record.map_index = static_cast<int>(finished_.size());
-  }
+  if (state_ == TrackingState::kLost) ++record_.relocalisations;
+  if (step.tracking.recovered) ++record_.counters["tracking.recovered_by_descriptors"];
+  state_ = TrackingState::kTracking;
+  last_tracked_ns_ = record.timestamp_ns;
+  record.world_from_cam = step.world_from_cam;
+  record.is_keyframe = step.mapping.has_value();
+  maps_.RecognizePlaces(step);
+  record.map_index = maps_.active_index();
   record.state = state_;
   album_.Offer(prepared, record, step.tracked_features);
 }
@@ -101,26 +117,23 @@ void SlamSystem::ProcessTracking(const PreparedFrame& prepared, FrameRecord& rec
 void SlamSystem::HandleLost(const PreparedFrame& prepared, FrameRecord& record) {
   if (state_ == TrackingState::kTracking) ++record_.lost_events;
   state_ = TrackingState::kLost;
-  if (session_->map().num_keyframes() < options_.min_keyframes_to_keep) {
+  if (Relocalize(prepared, record)) return;
+  const bool is_youngest = maps_.active() == maps_.maps().back().get();
+  if (is_youngest && maps_.active()->map().num_keyframes() < options_.min_keyframes_to_keep) {
     // Lost shortly after start: the map is worth nothing, begin anew with this frame.
     ++record_.counters["tracking.maps_reset"];
-    session_.reset();
-    ForgetMapOfFrames(static_cast<int>(finished_.size()));
+    maps_.ThrowAwayActive();
   } else if (static_cast<double>(record.timestamp_ns - last_tracked_ns_) * 1e-9 >
              options_.recovery_time_s) {
     ++record_.counters["tracking.maps_left"];
-    finished_.push_back(std::move(session_));
+    maps_.Leave();
   }
-  if (!session_) {
+  if (maps_.active() == nullptr) {
     BeginInitializing();
     initializer_->Process(prepared.MakeFrame());
   }
-}
-
-void SlamSystem::ForgetMapOfFrames(int map_index) {
-  for (FrameRecord& frame : record_.frames) {
-    if (frame.map_index == map_index) frame.map_index = -1;
-  }
+  record.state = state_;
+  album_.Offer(prepared, record, {});
 }
 
 void SlamSystem::CountMapping(const MappingReport& report) {
@@ -138,21 +151,12 @@ void SlamSystem::CountMapping(const MappingReport& report) {
   counters["mapping.observations_rejected"] += report.bundle.outliers;
 }
 
-void SlamSystem::AdjustFinalMaps() {
-  for (const auto& session : finished_) {
-    if (session->map().num_keyframes() < 3) continue;
-    session->AdjustFinally(options_.final_bundle, options_.self_calibration,
-                           record_.stage_times_ms);
-  }
-}
-
 RunRecord SlamSystem::Finish() {
-  if (session_) finished_.push_back(std::move(session_));
   initializer_.reset();
-  if (options_.final_bundle_adjustment) AdjustFinalMaps();
+  if (options_.final_bundle_adjustment) maps_.AdjustAll();
   record_.camera = camera_;
   record_.annotated_frames = album_.Take();
-  CompleteRunRecord(finished_, record_);
+  CompleteRunRecord(maps_.maps(), record_);
   return std::move(record_);
 }
 

@@ -6,7 +6,7 @@
 
 #include "lift_slam/slam/annotated_frame_album.h"
 #include "lift_slam/slam/frame_preparer.h"
-#include "lift_slam/slam/map_session.h"
+#include "lift_slam/slam/map_collection.h"
 #include "lift_slam/slam/run_record.h"
 #include "lift_slam/slam/slam_options.h"
 
@@ -16,8 +16,9 @@ namespace lift_slam {
 // fresh map when the old one is lost for good. Runs everything in the calling thread.
 class SlamSystem {
  public:
+  // Without a vocabulary (of the features' kind) neither loops nor lost frames are recognised.
   SlamSystem(const Camera& camera, std::shared_ptr<const ViewModel> view,
-             const SlamOptions& options);
+             const SlamOptions& options, std::shared_ptr<const Vocabulary> vocabulary = nullptr);
 
   // Frames must come in order of time.
   const FrameRecord& Process(const PreparedFrame& prepared);
@@ -26,29 +27,35 @@ class SlamSystem {
   RunRecord Finish();
 
   TrackingState state() const { return state_; }
-  int num_keyframes() const { return session_ ? session_->map().num_keyframes() : 0; }
-  int num_points() const { return session_ ? session_->map().num_points() : 0; }
+  int num_keyframes() const {
+    return maps_.active() != nullptr ? maps_.active()->map().num_keyframes() : 0;
+  }
+  int num_points() const {
+    return maps_.active() != nullptr ? maps_.active()->map().num_points() : 0;
+  }
+  // So far.
+  const std::vector<PlaceEvent>& place_events() const { return record_.place_events; }
 
  private:
   void ProcessInitializing(const PreparedFrame& prepared, FrameRecord& record);
   void ProcessTracking(const PreparedFrame& prepared, FrameRecord& record);
+  // Looks for the frame by its words; false when no map shows it.
+  bool Relocalize(const PreparedFrame& prepared, FrameRecord& record);
+  void RecordTracked(const MapSession::Step& step, const PreparedFrame& prepared,
+                     FrameRecord& record);
   void HandleLost(const PreparedFrame& prepared, FrameRecord& record);
-  // The map with this number was thrown away: another will have the number.
-  void ForgetMapOfFrames(int map_index);
   void BeginInitializing();
   void CountMapping(const MappingReport& report);
-  void AdjustFinalMaps();
 
   Camera camera_;
   std::shared_ptr<const ViewModel> view_;
   SlamOptions options_;
   TrackingState state_ = TrackingState::kInitializing;
   std::unique_ptr<MapInitializer> initializer_;
-  std::unique_ptr<MapSession> session_;                // the map tracked now; null: none
-  std::vector<std::unique_ptr<MapSession>> finished_;  // maps kept, by age
   std::int64_t last_tracked_ns_ = 0;
   AnnotatedFrameAlbum album_;
   RunRecord record_;
+  MapCollection maps_;  // writes into record_
 };
 
 }  // namespace lift_slam

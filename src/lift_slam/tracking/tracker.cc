@@ -16,6 +16,13 @@ namespace {
 constexpr int kMinFeatures = 50;
 // Where the motion model or, after a recovery, the pose is rough.
 constexpr float kWideRadiusFactor = 3.0F;
+// Weight of a frame in the smoothed share of points that are found.
+constexpr double kSmoothing = 0.05;
+
+double FoundRatio(const TrackingResult& result) {
+  return result.num_visible > 0 ? static_cast<double>(result.num_inliers) / result.num_visible
+                                : 0.0;
+}
 
 void CountSightings(const std::vector<MapPointId>& visible, const Frame& frame, Map& map) {
   for (const MapPointId id : visible) ++map.point(id).num_visible;
@@ -60,19 +67,52 @@ TrackingResult Tracker::Track(Map& map, Frame& frame) {
                                                                  : FrameRefusal::kPoseRejected;
     }
   }
-  if (result.refusal != FrameRefusal::kNone) {
-    frame.ClearMatches();
-    last_was_tracked_ = false;
-    velocity_.reset();
-    adaptive_.looseness = 1.0;
-    return result;
-  }
+  if (result.refusal != FrameRefusal::kNone) return Refuse(result.refusal, frame, result);
+  return Conclude(map, frame, result);
+}
+
+TrackingResult Tracker::Refuse(FrameRefusal refusal, Frame& frame, TrackingResult result) {
+  result.refusal = refusal;
+  frame.ClearMatches();
+  last_was_tracked_ = false;
+  velocity_.reset();
+  adaptive_.looseness = 1.0;
+  return result;
+}
+
+TrackingResult Tracker::Conclude(const Map& map, const Frame& frame, TrackingResult result) {
   adaptive_ = Adapt(adaptive_, matching_, result.num_last_matches, result.num_last_outliers);
+  const double ratio = FoundRatio(result);
+  usual_found_ratio_ = usual_found_ratio_ > 0.0
+                           ? usual_found_ratio_ + kSmoothing * (ratio - usual_found_ratio_)
+                           : ratio;
   result.reference = reference_;
   result.needs_keyframe = ShouldBecomeKeyFrame(map, result.num_inliers, reference_,
                                                frames_since_keyframe_, options_.keyframe);
   Remember(frame);
   return result;
+}
+
+TrackingResult Tracker::Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar) {
+  TrackingResult result;
+  result.thresholds = LoosestThresholds(map);
+  const KeyFrameId reference = reference_;
+  for (const KeyFrameId keyframe : similar) {
+    if (map.FindKeyFrame(keyframe) == nullptr || !TryKeyFrame(map, keyframe, frame)) continue;
+    if (TrackLocalMap(map, frame, /*wide=*/true, result) < options_.min_relocalised_inliers ||
+        FoundRatio(result) < options_.min_relocalised_ratio * usual_found_ratio_) {
+      continue;
+    }
+    result.recovered = true;
+    return Conclude(map, frame, result);
+  }
+  reference_ = reference;
+  return Refuse(FrameRefusal::kTooFewTracked, frame, result);
+}
+
+void Tracker::MapCorrected(const Map& map, KeyFrameId keyframe, double scale) {
+  KeyFrameMapped(map, keyframe);
+  if (velocity_) velocity_->translation *= scale;
 }
 
 void Tracker::Remember(const Frame& frame) {
@@ -160,6 +200,7 @@ int Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& re
   AlignMatches(map, frame);
   result.num_matches = frame.CountMatches();
   result.num_inliers = OptimizeFramePose(map, options_.pose, frame);
+  result.num_visible = static_cast<int>(matched.visible.size());
   CountSightings(matched.visible, frame, map);
   return result.num_inliers;
 }

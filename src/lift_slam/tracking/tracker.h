@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "lift_slam/map/map.h"
 #include "lift_slam/matching/adaptive_thresholds.h"
@@ -16,6 +17,7 @@ struct TrackingResult {
   int num_inliers = 0;
   KeyFrameId reference;  // the frame's pose is kept relative to it
   bool needs_keyframe = false;
+  int num_visible = 0;            // points of the local map that the frame should see
   bool recovered = false;         // found again without a prediction
   MatchingThresholds thresholds;  // that the frame was tracked with
   int num_last_matches = 0;       // with the last frame's points; 0 when they gave no pose
@@ -40,6 +42,15 @@ class Tracker {
   // matches and points.
   void KeyFrameMapped(const Map& map, KeyFrameId keyframe);
 
+  // A lost frame that looks like these keyframes, best first: tried one after another, by
+  // descriptors alone. Succeeds with more points than tracking needs, and a good share of those
+  // that should be seen; otherwise everything is as before.
+  TrackingResult Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar);
+
+  // The map has been corrected and `keyframe` is the last tracked frame: lengths in its camera
+  // frame were multiplied by `scale`.
+  void MapCorrected(const Map& map, KeyFrameId keyframe, double scale);
+
   // As they stand for the next frame and for mapping.
   MatchingThresholds Thresholds(const Map& map) const {
     return adaptive_.In(map.view().thresholds, matching_.thresholds);
@@ -52,6 +63,8 @@ class Tracker {
   MatchingThresholds LoosestThresholds(const Map& map) const;
   bool TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const;
   int TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result);
+  TrackingResult Refuse(FrameRefusal refusal, Frame& frame, TrackingResult result);
+  TrackingResult Conclude(const Map& map, const Frame& frame, TrackingResult result);
   void Remember(const Frame& frame);
 
   TrackerOptions options_;
@@ -63,6 +76,7 @@ class Tracker {
   std::optional<Rigid3d> velocity_;  // cam_from_last_cam
   KeyFrameId reference_;
   int frames_since_keyframe_ = 0;
+  double usual_found_ratio_ = 0.0;  // inliers over visible points of tracked frames, smoothed
 };
 
 }  // namespace lift_slam

@@ -13,9 +13,13 @@ struct TrackerOptions {
   double search_radius_px = 5.0;
   // Share of the last frame's points that must be found, else the window is widened three times.
   double min_match_share = 0.4;
-  int min_matches = 20;          // with the last frame; else the next, wider search
-  int min_inliers_first = 10;    // after the first pose optimisation
-  int min_inliers = 30;          // after the local map; fewer: lost
+  int min_matches = 20;              // with the last frame; else the next, wider search
+  int min_inliers_first = 10;        // after the first pose optimisation
+  int min_inliers = 30;              // after the local map; fewer: lost
+  int min_relocalised_inliers = 50;  // the same for a lost frame found by its look (as ORB-SLAM)
+  // Share of the points that such a frame should see and does, over the usual share: where only a
+  // texture repeats, most of them are missing.
+  double min_relocalised_ratio = 0.4;
   int max_local_keyframes = 60;  // of the local map
   int recovery_keyframes = 5;    // recent keyframes matched without prediction when lost
   PoseOptimizationOptions pose;
@@ -31,6 +35,10 @@ struct TrackerOptions {
     visitor.Field("min_inliers_first", min_inliers_first,
                   "points that must agree with the first pose");
     visitor.Field("min_inliers", min_inliers, "tracked points below which a frame is lost");
+    visitor.Field("min_relocalised_inliers", min_relocalised_inliers,
+                  "tracked points that a lost frame found by its look needs");
+    visitor.Field("min_relocalised_ratio", min_relocalised_ratio,
+                  "share of visible points that it sees, over the usual share");
     visitor.Field("max_local_keyframes", max_local_keyframes, "keyframes of the local map");
     visitor.Field("recovery_keyframes", recovery_keyframes,
                   "keyframes tried without prediction when tracking fails");

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "lift_slam/visualization/map_raster.h"
@@ -47,6 +48,44 @@ void AddStartAndEnd(const ScenePath& path, PlotColor color, Plot& plot) {
   if (start.x.empty()) return;
   plot.series.push_back(std::move(start));
   plot.series.push_back(std::move(end));
+}
+
+// Where a frame is on the page; nothing when it has no final pose or belongs to another path.
+std::optional<Eigen::Vector3d> PlaceOfFrame(const RunRecord& run, const ReportScene& scene,
+                                            const ScenePath& path, std::int64_t frame_index) {
+  for (std::size_t i = 0; i < run.final_trajectory.size(); ++i) {
+    const TrajectoryPose& pose = run.final_trajectory[i];
+    if (pose.frame_index != frame_index) continue;
+    if (pose.state != PoseState::kOk || i >= run.frames.size()) return std::nullopt;
+    if (!scene.Shows(path, run.frames[i].map_index)) return std::nullopt;
+    return scene.OnPage(pose.world_from_cam.translation);
+  }
+  return std::nullopt;
+}
+
+// Accepted places as lines between both frames, relocalisations as rings.
+void AddPlaceEdges(const RunRecord& run, const ReportScene& scene, const ScenePath& path,
+                   Plot& plot) {
+  PlotSeries loops{"loop", SeriesKind::kLine, PlotColor::kOrange, {}, {}, 2.4};
+  PlotSeries merges{"merge of maps", SeriesKind::kLine, PlotColor::kPurple, {}, {}, 2.4};
+  PlotSeries found{"relocalised", SeriesKind::kRings, PlotColor::kVermilion, {}, {}, 7.0};
+  for (const PlaceEvent& event : run.place_events) {
+    if (event.rejection != PlaceRejection::kAccepted) continue;
+    const auto a = PlaceOfFrame(run, scene, path, event.frame_index);
+    const auto b = PlaceOfFrame(run, scene, path, event.other_frame_index);
+    if (!a) continue;
+    if (event.kind == PlaceEventKind::kRelocalisation) {
+      found.x.push_back(a->x());
+      found.y.push_back(a->y());
+    } else if (b) {
+      PlotSeries& series = event.kind == PlaceEventKind::kLoop ? loops : merges;
+      series.x.insert(series.x.end(), {a->x(), b->x(), kGap});
+      series.y.insert(series.y.end(), {a->y(), b->y(), kGap});
+    }
+  }
+  for (PlotSeries* series : {&loops, &merges, &found}) {
+    if (!series->x.empty()) plot.series.push_back(std::move(*series));
+  }
 }
 
 Plot TopViewPlot(const ReportScene& scene) {
@@ -172,7 +211,7 @@ std::string StageNote(const RunRecord& run, std::size_t per_bar, int beyond) {
 
 }  // namespace
 
-Figure TopViewFigure(const ReportScene& scene, const ScenePath& path) {
+Figure TopViewFigure(const RunRecord& run, const ReportScene& scene, const ScenePath& path) {
   Figure figure{"Top view", TopViewPlot(scene), {}};
   Plot& plot = figure.plot;
   plot.description = "Trajectory from above";
@@ -181,6 +220,7 @@ Figure TopViewFigure(const ReportScene& scene, const ScenePath& path) {
   plot.series.push_back(
       {PathLabel(scene, path), SeriesKind::kLine, color, path.right, path.up, 1.8});
   AddStartAndEnd(path, color, plot);
+  AddPlaceEdges(run, scene, path, plot);
   return figure;
 }
 

@@ -14,8 +14,8 @@ struct Figure {
   std::string note;  // a sentence under the plot; may be empty
 };
 
-// Path (and ground truth) from above, with its start and end.
-Figure TopViewFigure(const ReportScene& scene, const ScenePath& path);
+// Path (and ground truth) from above, with its start and end, closed loops and merges of maps.
+Figure TopViewFigure(const RunRecord& run, const ReportScene& scene, const ScenePath& path);
 // Height against time; all maps.
 Figure HeightFigure(const ReportScene& scene);
 // Distance to the ground truth against time.

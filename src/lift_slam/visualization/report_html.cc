@@ -94,7 +94,7 @@ std::string TrajectoryHtml(const RunRecord& run, const ReportScene& scene, const
   if (maps.size() > 1) {
     std::string figures;
     for (const ScenePath* path : maps) {
-      Figure figure = TopViewFigure(scene, *path);
+      Figure figure = TopViewFigure(run, scene, *path);
       figure.title = fmt::format("Map {}, top view", path->map_index + 1);
       figure.plot.height_px = 340;
       figures += FigureHtml(figure);
@@ -102,7 +102,7 @@ std::string TrajectoryHtml(const RunRecord& run, const ReportScene& scene, const
     height.plot.width_px = 1140;
     return Pair(figures, "") + NoteHtml(note) + "<br>" + FigureHtml(height, "wide");
   }
-  Figure top = TopViewFigure(scene, *maps.front());
+  Figure top = TopViewFigure(run, scene, *maps.front());
   if (data.errors.empty()) {
     top.plot.height_px = height.plot.height_px = 420;
     if (!scene.aligned()) {
@@ -140,6 +140,7 @@ std::string MapHtml(const RunRecord& run, const ReportScene& scene) {
 std::string TablesHtml(const RunRecord& run, const ReportData& data) {
   std::string html;
   for (const ReportTable& table : data.tables) html += TableHtml(table);
+  html += PlacesHtml(run);
   html += CountersHtml(run);
   return html.empty() ? html : "<div class=\"columns\">" + html + "</div>\n";
 }

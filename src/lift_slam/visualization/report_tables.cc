@@ -36,6 +36,29 @@ std::string ShareCells(int count, std::size_t total) {
       count, percent, count > 0 ? fmt::format("<i style=\"width:{:.1f}%\"></i>", percent) : "");
 }
 
+// All that were accepted, and the first that were refused.
+std::vector<PlaceEvent> PlacesToList(const RunRecord& run) {
+  constexpr int kMaxRefused = 30;
+  std::vector<PlaceEvent> events;
+  int refused = 0;
+  for (const PlaceEvent& event : run.place_events) {
+    const bool is_accepted = event.rejection == PlaceRejection::kAccepted;
+    if (is_accepted || ++refused <= kMaxRefused) events.push_back(event);
+  }
+  return events;
+}
+
+std::string PlaceRow(const PlaceEvent& event) {
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td>"
+      "<td class=\"num\">{:.3f}</td><td class=\"num\">{}</td><td class=\"num\">{}</td>"
+      "<td class=\"num\">{}</td><td class=\"num\">{}</td><td class=\"num\">{:.3f}</td>"
+      "<td class=\"note\">{}</td></tr>\n",
+      Name(event.kind), event.frame_index, event.other_frame_index, event.score,
+      event.num_word_matches, event.num_inliers, event.num_projected, event.num_confirming,
+      event.scale, EscapeXml(Explain(event.rejection)));
+}
+
 }  // namespace
 
 std::string KeyNumbersHtml(const std::vector<ReportRow>& rows) {
@@ -123,6 +146,28 @@ std::string StageTimesHtml(const StageTimes& times_ms) {
          "% below [ms]</th><th class=\"num\">slowest [ms]</th><th class=\"num\">total [s]</th></tr>"
          "</thead><tbody>\n" +
          rows + "</tbody></table>\n";
+}
+
+std::string PlacesHtml(const RunRecord& run) {
+  std::string html;
+  if (!run.place_recognition_notice.empty()) {
+    html = "<p class=\"note\">Places seen before are not recognised: " +
+           EscapeXml(run.place_recognition_notice) + ".</p>\n";
+  }
+  const std::vector<PlaceEvent> events = PlacesToList(run);
+  if (events.empty()) return html;
+  html +=
+      "<table><caption>Places seen before</caption><thead><tr><th>what</th><th class=\"num\">frame"
+      "</th><th class=\"num\">looks like</th><th class=\"num\">score</th><th class=\"num\">by "
+      "words</th><th class=\"num\">agree</th><th class=\"num\">seen</th><th class=\"num\">"
+      "neighbours</th><th class=\"num\">scale</th><th>result</th></tr></thead><tbody>\n";
+  for (const PlaceEvent& event : events) html += PlaceRow(event);
+  html += "</tbody></table>\n";
+  if (events.size() < run.place_events.size()) {
+    html += fmt::format("<p class=\"note\">{} more were refused.</p>\n",
+                        run.place_events.size() - events.size());
+  }
+  return html;
 }
 
 std::string CountersHtml(const RunRecord& run) {

@@ -18,6 +18,9 @@ std::vector<FrameRefusal> RefusalsByCount(const RunRecord& run);
 std::string RefusalsHtml(const RunRecord& run);
 // Runs, median, mean, 95th percentile, maximum and total of each stage.
 std::string StageTimesHtml(const StageTimes& times_ms);
+// Places recognised and refused by geometry, each with its numbers and the reason; above it why
+// places were not recognised at all.
+std::string PlacesHtml(const RunRecord& run);
 // RunRecord::counters, grouped by stage.
 std::string CountersHtml(const RunRecord& run);
 

@@ -1,0 +1,108 @@
+#include "lift_slam/loop_closing/loop_closer.h"
+
+#include "lift_slam/util/timer.h"
+
+namespace lift_slam {
+namespace {
+
+void CountCandidates(const std::vector<CandidateVerdict>& verdicts, LoopReport& report) {
+  for (const CandidateVerdict& verdict : verdicts) {
+    ++report.candidates[static_cast<std::size_t>(verdict.rejection)];
+  }
+}
+
+bool IsAccepted(const LoopReport& report) {
+  return !report.attempts.empty() &&
+         report.attempts.back().match.rejection == PlaceRejection::kAccepted;
+}
+
+}  // namespace
+
+void LoopCloser::Update(const Map& map) {
+  tree_.ForgetErased(map);
+  places_.ForgetErased(map);
+  for (const KeyFrameId id : map.KeyFrameIds()) {
+    if (!tree_.Has(id)) tree_.Add(id, map);
+    if (!places_.Has(id)) places_.Add(map.keyframe(id));
+  }
+}
+
+LoopReport LoopCloser::Process(KeyFrameId keyframe, Map& map) {
+  LoopReport report;
+  const Timer detect_timer;
+  Update(map);
+  const bool is_too_early =
+      last_loop_.valid() && keyframe.value - last_loop_.value < options_.min_keyframes_after_loop;
+  if (is_too_early) {
+    detector_.Reset();
+    report.detect_ms = detect_timer.ElapsedMs();
+    return report;
+  }
+  const PlaceView query{map, places_, keyframe};
+  const std::vector<CandidateVerdict> verdicts = detector_.Detect(query);
+  CountCandidates(verdicts, report);
+  report.detect_ms = detect_timer.ElapsedMs();
+  Verify(query, verdicts, map, places_, report);
+  if (!IsAccepted(report)) return report;
+
+  PlaceAttempt& attempt = report.attempts.back();
+  LoopCorrection correction =
+      CorrectLoop(attempt.match, attempt.edge, tree_, loops_, options_.correction, map);
+  last_loop_ = keyframe;
+  detector_.Reset();
+  if (correction.graph.usable) {
+    loops_.push_back(attempt.edge);
+    report.correction = std::move(correction);
+  } else {
+    attempt.match.rejection = PlaceRejection::kGraphFailed;
+  }
+  return report;
+}
+
+LoopReport LoopCloser::FindInOtherMap(KeyFrameId keyframe, const Map& map, const Map& other_map,
+                                      const LoopCloser& other) const {
+  LoopReport report;
+  const Timer timer;
+  const PlaceView query{map, places_, keyframe};
+  const auto verdicts = DetectInOtherMap(query, other_map, other.places_, options_);
+  CountCandidates(verdicts, report);
+  report.detect_ms = timer.ElapsedMs();
+  Verify(query, verdicts, other_map, other.places_, report);
+  return report;
+}
+
+void LoopCloser::Verify(const PlaceView& query, const std::vector<CandidateVerdict>& verdicts,
+                        const Map& other_map, const PlaceIndex& other_places,
+                        LoopReport& report) const {
+  const Timer timer;
+  for (const CandidateVerdict& verdict : verdicts) {
+    if (static_cast<int>(report.attempts.size()) == options_.max_verified) break;
+    if (verdict.rejection != CandidateRejection::kAccepted) continue;
+    const KeyFrameId candidate(verdict.candidate.keyframe);
+    PlaceAttempt attempt{{query.keyframe, candidate}, verdict.candidate.score, {}};
+    attempt.match = VerifyPlace(query, {other_map, other_places, candidate}, options_.verification,
+                                seed_ + query.keyframe.index());
+    report.attempts.push_back(std::move(attempt));
+    if (IsAccepted(report)) break;
+  }
+  report.verify_ms = timer.ElapsedMs();
+}
+
+std::vector<KeyFrameId> LoopCloser::FindSimilar(const FrameFeatures& features,
+                                                const Map& map) const {
+  return FindSimilarKeyFrames(features, map, places_, options_, options_.max_verified);
+}
+
+void LoopCloser::Absorb(const LoopCloser& other, int offset, const LoopEdge& merged_by) {
+  places_.Absorb(other.places_, offset);
+  tree_.Absorb(other.tree_, offset);
+  for (const LoopEdge& loop : other.loops_) {
+    loops_.push_back(
+        {KeyFrameId(loop.query.value + offset), KeyFrameId(loop.candidate.value + offset)});
+  }
+  loops_.push_back(merged_by);
+  last_loop_ = merged_by.query;
+  detector_.Reset();
+}
+
+}  // namespace lift_slam

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <string>
+
+#include "lift_slam/geometry/absolute_pose.h"
+#include "lift_slam/geometry/chi_square.h"
+#include "lift_slam/optimization/pose_graph.h"
+#include "lift_slam/optimization/sim3_optimization.h"
+#include "lift_slam/place_recognition/loop_candidates.h"
+#include "lift_slam/util/options.h"
+
+namespace lift_slam {
+
+struct PlaceVerificationOptions {
+  int window_keyframes = 5;   // covisible keyframes whose points join the candidate's
+  int min_word_matches = 20;  // fewer agree by chance
+  int min_inliers = 20;       // of the optimised similarity
+  // Between both cameras, over the median depth of the candidate's points: what is far off is
+  // placed roughly, and comes nearer when it is the same way.
+  double max_offset_ratio = 1.0;
+  int min_projected = 40;  // features that show a point of the place (ORB-SLAM2's 40)
+  // Share of the place's points that the query should see and does, over the same share of the
+  // points around the query. A road whose texture repeats gives 0.1 with a perfect geometry.
+  double min_found_ratio = 0.4;
+  int confirming_keyframes = 5;       // covisible keyframes of the query that should see the place
+  int min_confirming = 2;             // of these
+  int min_confirming_points = 20;     // that each must see
+  double search_radius_factor = 2.5;  // of the windows of local map tracking (2.5 to 4 px)
+  // Of the query's map points; in sigmas, as for the similarity.
+  double max_squared_error = kChiSquare99With2Dof;
+  int min_scale_matches = 8;  // with map points on both sides, for the first scale
+  AbsolutePoseOptions ransac;
+  Sim3OptimizationOptions sim3;
+
+  void Visit(OptionVisitor& visitor);
+};
+
+struct LoopCorrectionOptions {
+  int min_graph_shared_points = 100;  // of a covisible pair to be an edge of the essential graph
+  int max_graph_neighbors = 10;       // of a keyframe, most shared points first
+  int max_loop_edges = 10;  // neighbours of either side that the loop's edges hold together
+  int min_neighbor_shared_points = 15;  // of a keyframe to be fused with the place
+  int max_neighbors = 30;               // of either side, most shared points first
+  double fusion_radius_px = 4.0;        // search window of fusion, on level 0
+  // Of the loop's edge: a similarity verified by dozens of points is far better than what has added
+  // up along the way.
+  double loop_edge_weight = 100.0;
+  PoseGraphOptions graph;
+
+  void Visit(OptionVisitor& visitor);
+};
+
+struct LoopClosingOptions {
+  bool enabled = true;             // where there is a vocabulary for the features
+  std::string vocabulary;          // file; empty: the one shipped for the features
+  bool relocalisation = true;      // of a lost camera, in all maps of the run
+  bool merging = true;             // of maps that show the same place
+  BagScore score = BagScore::kL2;  // the paper's
+  CandidateSelectionOptions candidates;
+  int min_shared_points = 15;  // of covisible keyframes, which are no candidates
+  // A candidate is this many keyframes older at least than the query.
+  int min_keyframes_apart = 20;
+  int min_keyframes_after_loop = 10;  // before the next loop is looked for (as ORB-SLAM)
+  int max_verified = 5;               // candidates, best first
+  PlaceVerificationOptions verification;
+  LoopCorrectionOptions correction;
+
+  void Visit(OptionVisitor& visitor);
+};
+
+}  // namespace lift_slam
