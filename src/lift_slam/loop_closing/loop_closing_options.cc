@@ -24,6 +24,8 @@ void PlaceVerificationOptions::Visit(OptionVisitor& visitor) {
   visitor.Group("ransac", ransac, "pose from the first matches");
   visitor.Field("min_scale_matches", min_scale_matches,
                 "of these with map points on both sides, for the first scale");
+  visitor.Field("min_scale_share", min_scale_share,
+                "share of their ratios of depths that must agree on the scale");
   visitor.Group("sim3", sim3, "optimisation of the similarity");
 }
 

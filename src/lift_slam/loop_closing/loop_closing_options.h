@@ -28,7 +28,8 @@ struct PlaceVerificationOptions {
   double search_radius_factor = 2.5;  // of the windows of local map tracking (2.5 to 4 px)
   // Of the query's map points; in sigmas, as for the similarity.
   double max_squared_error = kChiSquare99With2Dof;
-  int min_scale_matches = 8;  // with map points on both sides, for the first scale
+  int min_scale_matches = 8;     // with map points on both sides, for the first scale
+  double min_scale_share = 0.4;  // of their ratios of depths that must agree on it
   AbsolutePoseOptions ransac;
   Sim3OptimizationOptions sim3;
 

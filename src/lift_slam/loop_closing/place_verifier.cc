@@ -15,6 +15,8 @@ namespace lift_slam {
 namespace {
 
 constexpr int kWindowMinShared = 15;
+// Ratios of depths within this factor of their median agree.
+constexpr double kScaleTolerance = 1.3;
 
 Sim3d AsSimilarity(const Rigid3d& pose) { return {1.0, pose.rotation, pose.translation}; }
 
@@ -158,13 +160,26 @@ class Verifier {
       const double other = (pose->cam_from_world * matches[k].point_in_world).z();
       if (depth > 0.0 && other > 0.0) scales.push_back(depth / other);
     }
+    const auto scale = CommonScale(std::move(scales));
+    if (!scale) return std::nullopt;
+    const Sim3d query_from_candidate_world =
+        Sim3d(*scale, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero()) *
+        AsSimilarity(pose->cam_from_world);
+    return query_from_candidate_world * AsSimilarity(Inverse(candidate_from_world_));
+  }
+
+  // The median, when enough of the ratios are near it: two cameras at one place see the same of two
+  // maps whatever their shapes and scales, so reprojection alone does not tell.
+  std::optional<double> CommonScale(std::vector<double> scales) const {
     if (static_cast<int>(scales.size()) < options_.min_scale_matches) return std::nullopt;
     const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
     std::nth_element(scales.begin(), middle, scales.end());
-    const Sim3d query_from_candidate_world =
-        Sim3d(*middle, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero()) *
-        AsSimilarity(pose->cam_from_world);
-    return query_from_candidate_world * AsSimilarity(Inverse(candidate_from_world_));
+    const double median = *middle;
+    const auto agreeing = std::ranges::count_if(scales, [&](double scale) {
+      return scale < kScaleTolerance * median && scale > median / kScaleTolerance;
+    });
+    const auto share = static_cast<double>(agreeing) / static_cast<double>(scales.size());
+    return share < options_.min_scale_share ? std::nullopt : std::optional(median);
   }
 
   void SetSimilarity(const Sim3d& query_from_candidate, PlaceMatch& match) const {
