@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "training/distance_statistics.h"
 #include "training/lift_modules.h"
@@ -26,12 +27,15 @@ class DescriptorStage : public TrainingStage {
 
   torch::nn::Module& network() override { return network_; }
 
-  Tensor Loss(const PatchBatch& batch, std::int64_t) override {
+  Tensor Loss(const PatchBatch& batch, std::int64_t step) override {
     Tensor patches = torch::cat({PatchTensor(batch.first, batch.count, batch.size),
                                  PatchTensor(batch.second, batch.count, batch.size)});
     const Tensor different = DifferenceTensor(batch);
     if (options_.loss == DescriptorLoss::kHardest) {
-      return RowLosses(Describe(patches), different).mean();
+      const Tensor descriptions = Describe(patches);
+      if (step >= options_.easy_steps) return RowLosses(descriptions, different).mean();
+      const auto [first, second] = Halves(descriptions);
+      return TripletLoss(first, second, different, 2.0 * options_.margin).mean();
     }
     return MinedLoss(patches, different);
   }
@@ -42,8 +46,7 @@ class DescriptorStage : public TrainingStage {
     for (const PatchBatch& batch : batches) {
       const Tensor first = network_.forward(PatchTensor(batch.first, batch.count, batch.size));
       const Tensor second = network_.forward(PatchTensor(batch.second, batch.count, batch.size));
-      statistics.Add(RowDistances(first, second), AllDistances(first, second),
-                     DifferenceTensor(batch));
+      statistics.Add(AllDistances(first, second), DifferenceTensor(batch));
     }
     const DistanceQuantiles quantiles = statistics.Quantiles();
     const double fpr95 = statistics.FalsePositiveRate95();
@@ -62,9 +65,13 @@ class DescriptorStage : public TrainingStage {
     return network_.forward(patches);
   }
 
-  Tensor RowLosses(const Tensor& descriptions, const Tensor& different) const {
+  static std::pair<Tensor, Tensor> Halves(const Tensor& descriptions) {
     const std::int64_t n = descriptions.size(0) / 2;
-    const Tensor first = descriptions.slice(0, 0, n), second = descriptions.slice(0, n);
+    return {descriptions.slice(0, 0, n), descriptions.slice(0, n)};
+  }
+
+  Tensor RowLosses(const Tensor& descriptions, const Tensor& different) const {
+    const auto [first, second] = Halves(descriptions);
     switch (options_.loss) {
       case DescriptorLoss::kPairs:
         return PairLoss(first, second, different, options_.margin);

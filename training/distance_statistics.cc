@@ -23,12 +23,11 @@ float Quantile(std::vector<float> values, double share) {
 
 }  // namespace
 
-void DistanceStatistics::Add(const torch::Tensor& matching, const torch::Tensor& all,
-                             const torch::Tensor& different) {
+void DistanceStatistics::Add(const torch::Tensor& distances, const torch::Tensor& different) {
   constexpr double kFar = 1e6;
-  Append(matching, matching_);
-  Append(all.masked_fill(different.logical_not(), kFar).amin(1), nearest_wrong_);
-  Append(all.masked_select(different), different_);
+  Append(distances.diagonal(), matching_);
+  Append(distances.masked_fill(different.logical_not(), kFar).amin(1), nearest_wrong_);
+  Append(distances.masked_select(different), different_);
 }
 
 double DistanceStatistics::FalsePositiveRate95() const {

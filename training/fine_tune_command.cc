@@ -134,7 +134,7 @@ void AddFineTuneCommand(CLI::App& app) {
   command->add_option("--minutes", arguments->minutes, "End each stage after so long");
   command->add_option("--set", arguments->overrides, "One option, KEY=VALUE; may be repeated")
       ->type_name("KEY=VALUE")
-      ->expected(1);
+      ->allow_extra_args(false);
   command->callback([arguments] { FineTune(*arguments); });
 }
 

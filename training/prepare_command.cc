@@ -55,7 +55,7 @@ void AddCommon(CLI::App& command, PrepareArguments& arguments) {
   command.add_option("--output", arguments.output, "Folder of the training set")->required();
   command.add_option("--set", arguments.overrides, "One option, KEY=VALUE; may be repeated")
       ->type_name("KEY=VALUE")
-      ->expected(1);
+      ->allow_extra_args(false);
 }
 
 template <class Options>

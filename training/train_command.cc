@@ -112,7 +112,7 @@ void AddTrainCommand(CLI::App& app) {
   command->add_option("--config", arguments->config_file, "YAML file of options");
   command->add_option("--set", arguments->overrides, "One option, KEY=VALUE; may be repeated")
       ->type_name("KEY=VALUE")
-      ->expected(1);
+      ->allow_extra_args(false);
   command->callback([arguments] { Train(*arguments); });
   CLI::App* options = app.add_subcommand("options", "Print all options with their defaults");
   options->callback([] {

@@ -159,7 +159,9 @@ void Trainer::SetLearningRate() {
   constexpr double kLast = 0.01;
   const double part =
       std::min(1.0, static_cast<double>(state_.step) / static_cast<double>(schedule().steps));
-  const double factor = kLast + (1.0 - kLast) * 0.5 * (1.0 + std::cos(std::numbers::pi * part));
+  const double rise = static_cast<double>(state_.step + 1) / (schedule().warm_up_steps + 1.0);
+  const double factor = std::min(1.0, rise) *
+                        (kLast + (1.0 - kLast) * 0.5 * (1.0 + std::cos(std::numbers::pi * part)));
   for (torch::optim::OptimizerParamGroup& group : optimizer_->param_groups()) {
     static_cast<torch::optim::AdamOptions&>(group.options()).lr(schedule().learning_rate * factor);
   }

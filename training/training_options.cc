@@ -10,12 +10,14 @@ void ScheduleOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("batch", batch, "points of a step");
   visitor.Field("steps", steps, "in all; the learning rate falls over them to a hundredth");
   visitor.Field("learning_rate", learning_rate, "of Adam, at the beginning");
+  visitor.Field("warm_up_steps", warm_up_steps, "the first; the learning rate rises over them");
 }
 
 void ScheduleOptions::Check(std::string_view stage) const {
   CheckOptionRange(fmt::format("{}.schedule.batch", stage), batch, 2, 4096);
   CheckOptionRange(fmt::format("{}.schedule.steps", stage), steps, 1, 1e9);
   CheckOptionRange(fmt::format("{}.schedule.learning_rate", stage), learning_rate, 0.0, 1.0);
+  CheckOptionRange(fmt::format("{}.schedule.warm_up_steps", stage), warm_up_steps, 0, 1e9);
 }
 
 void DescriptorOptions::Visit(OptionVisitor& visitor) {
@@ -23,12 +25,14 @@ void DescriptorOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("loss", loss, kDescriptorLossNames,
                 "hardest: nearest wrong one of the batch; pairs: Eq. 1; triplet");
   visitor.Field("margin", margin, "of the loss; fixes the scale of the distances");
+  visitor.Field("easy_steps", easy_steps, "the first of hardest, with any wrong one instead");
   visitor.Field("mining", mining, "the worst of so many times as many (pairs and triplet)");
 }
 
 void DescriptorOptions::Check() const {
   schedule.Check("descriptor");
   CheckOptionRange("descriptor.margin", margin, 1e-3, 1e3);
+  CheckOptionRange("descriptor.easy_steps", easy_steps, 0, 1e9);
   CheckOptionRange("descriptor.mining", mining, 1, 64);
 }
 

@@ -17,6 +17,7 @@ struct ScheduleOptions {
   int batch = 128;    // points of a step
   int steps = 40000;  // in all; the learning rate falls to a hundredth over them (half a cosine)
   double learning_rate = 1e-3;
+  int warm_up_steps = 300;  // the first, over which the learning rate rises from 0
   void Visit(OptionVisitor& visitor);
   void Check(std::string_view stage) const;  // throws InputError naming the field
 };
@@ -31,10 +32,13 @@ enum class DescriptorLoss {
 inline constexpr std::string_view kDescriptorLossNames[] = {"hardest", "pairs", "triplet"};
 
 struct DescriptorOptions {
-  ScheduleOptions schedule;
+  ScheduleOptions schedule{.learning_rate = 5e-4};
   DescriptorLoss loss = DescriptorLoss::kHardest;
   // Fixes the scale of the distances. 2: matches lie mostly below 1, others above 2.
   double margin = 2.0;
+  // The first so many steps of `hardest` take the next point for the wrong one (triplet, margin
+  // doubled): the nearest of random descriptions teaches nothing but to make all of them zero.
+  int easy_steps = 1000;
   // Of so many times as many examples the worst ones are learnt from (pairs and triplet only).
   int mining = 2;
   void Visit(OptionVisitor& visitor);

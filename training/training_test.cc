@@ -188,11 +188,18 @@ TEST(SpatialTransformer, SoftArgmaxAgreesWithTheRunTime) {
 
 TEST(DistanceStatistics, CountsWhatLiesBelowTheMatches) {
   DistanceStatistics statistics;
-  const Tensor all = torch::tensor({{0.1F, 3.0F}, {0.05F, 0.2F}});
+  const Tensor distances = torch::tensor({{0.1F, 3.0F}, {0.05F, 0.2F}});
   const Tensor different = torch::ones({2, 2}, torch::kBool).fill_diagonal_(false);
-  statistics.Add(torch::tensor({0.1F, 0.2F}), all, different);
+  statistics.Add(distances, different);
   EXPECT_DOUBLE_EQ(statistics.FalsePositiveRate95(), 0.5);
   EXPECT_DOUBLE_EQ(statistics.NearestCorrect(), 0.5);
+}
+
+TEST(DistanceStatistics, ANetworkThatSaysTheSameOfEverythingIsAlwaysWrong) {
+  DistanceStatistics statistics;
+  statistics.Add(torch::zeros({3, 3}), torch::ones({3, 3}, torch::kBool).fill_diagonal_(false));
+  EXPECT_DOUBLE_EQ(statistics.FalsePositiveRate95(), 1.0);
+  EXPECT_DOUBLE_EQ(statistics.NearestCorrect(), 0.0);
 }
 
 TEST(Checkpoint, ComesBackAndRefusesOthers) {

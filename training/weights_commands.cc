@@ -83,8 +83,7 @@ DistanceQuantiles MeasureDistances(LiftWeights& weights, const std::vector<Weigh
     const PatchBatch batch = sampler.Draw(static_cast<std::uint64_t>(i));
     const auto first = descriptor.forward(PatchTensor(batch.first, batch.count, batch.size));
     const auto second = descriptor.forward(PatchTensor(batch.second, batch.count, batch.size));
-    statistics.Add(RowDistances(first, second), AllDistances(first, second),
-                   DifferenceTensor(batch));
+    statistics.Add(AllDistances(first, second), DifferenceTensor(batch));
   }
   return statistics.Quantiles();
 }
