@@ -11,6 +11,8 @@
 
 #include "apps/npz_file.h"
 #include "apps/output_folder.h"
+#include "apps/pair_features.h"
+#include "apps/patch_extraction.h"
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
@@ -22,8 +24,9 @@ namespace {
 struct ExtractArguments {
   std::vector<std::filesystem::path> images;
   std::filesystem::path weights, output;
-  std::string precision = "float32";
+  std::string precision{nn::Name(LiftExtractorOptions().precision)};
   LiftExtractorOptions options;
+  PatchExtraction patches;  // instead of images
 };
 
 // Files of one image are named after it: two of the same name would overwrite each other.
@@ -35,13 +38,6 @@ void CheckNames(const std::vector<std::filesystem::path>& images) {
                                    image.stem().string()));
     }
   }
-}
-
-GrayImage ReadImage(const std::filesystem::path& path) {
-  std::string why;
-  const std::optional<GrayImage> image = ReadGrayImage(path, &why);
-  if (!image) throw InputError(fmt::format("image '{}' cannot be read: {}", path.string(), why));
-  return *image;
 }
 
 void WriteFeatures(const FeatureSet& features, const ScaleLevels& levels,
@@ -71,9 +67,9 @@ void WriteFeatures(const FeatureSet& features, const ScaleLevels& levels,
 
 void ExtractImage(const std::filesystem::path& path, const std::filesystem::path& output,
                   FeatureExtractor& extractor) {
-  const GrayImage image = ReadImage(path);
+  const GrayImage image = ReadImageOrThrow(path);
   const auto start = std::chrono::steady_clock::now();
-  const FeatureSet features = extractor.Extract(image);
+  const FeatureSet features = ExtractNamed(extractor, image, path);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const std::string name = path.stem().string();
   WriteFeatures(features, extractor.scale_levels(), output / (name + ".npz"));
@@ -83,16 +79,12 @@ void ExtractImage(const std::filesystem::path& path, const std::filesystem::path
                            features.keypoints.size(), seconds.count());
 }
 
-void Extract(ExtractArguments arguments) {
+void ExtractImages(const ExtractArguments& arguments) {
   CheckNames(arguments.images);
   const LiftWeights weights = ReadLiftWeights(arguments.weights);
   if (!weights.orientation && !arguments.options.upright) {
     throw InputError(fmt::format("the weights '{}' have no orientation network; say --upright",
                                  arguments.weights.string()));
-  }
-  for (const nn::Precision precision :
-       {nn::Precision::kFloat32, nn::Precision::kBfloat16, nn::Precision::kInt8}) {
-    if (nn::Name(precision) == arguments.precision) arguments.options.precision = precision;
   }
   LiftExtractor extractor(weights, arguments.options);
   if (!extractor.precision().reason.empty()) {
@@ -105,14 +97,44 @@ void Extract(ExtractArguments arguments) {
   }
 }
 
+void Extract(ExtractArguments arguments) {
+  PatchExtraction& patches = arguments.patches;
+  if (arguments.images.empty() == patches.patches.empty()) {
+    throw InputError("extract needs either IMAGES or --patches FILE");
+  }
+  if (patches.patches.empty() && (patches.orientation || !patches.shape.empty())) {
+    throw InputError("--shape and --orientation go with --patches");
+  }
+  arguments.options.precision = nn::ParsePrecision(arguments.precision);
+  if (patches.patches.empty()) {
+    ExtractImages(arguments);
+    return;
+  }
+  patches.weights = arguments.weights;
+  patches.output = arguments.output;
+  patches.precision = arguments.options.precision;
+  patches.num_threads = arguments.options.num_threads;
+  ExtractPatches(patches);
+}
+
+void AddPatchOptions(CLI::App& command, PatchExtraction& patches) {
+  command.add_option("--patches", patches.patches,
+                     "Instead of images: 64 x 64 uint8 patches, one after the other; --output is "
+                     "then the .npy file of their descriptors (float32, N x 128)");
+  command.add_option("--shape", patches.shape, "Of the patches: N,64,64 (default: all there are)");
+  command.add_flag("--orientation", patches.orientation,
+                   "Also the patches' angles (float32 radians), into NAME_angles.npy");
+}
+
 }  // namespace
 
 void AddExtractCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("extract", "LIFT features of images, as files");
+  CLI::App* command =
+      app.add_subcommand("extract", "LIFT features of images, or descriptors of patches, as files");
   auto arguments = std::make_shared<ExtractArguments>();
   LiftExtractorOptions& options = arguments->options;
   options.num_threads = 2;
-  command->add_option("IMAGES", arguments->images, "Images")->required();
+  command->add_option("IMAGES", arguments->images, "Images");
   command->add_option("--weights", arguments->weights, "LIFT weights (.safetensors)")->required();
   command
       ->add_option("--output", arguments->output,
@@ -130,6 +152,7 @@ void AddExtractCommand(CLI::App& app) {
       ->check(CLI::IsMember({"float32", "bfloat16", "int8"}))
       ->capture_default_str();
   command->add_option("--threads", options.num_threads, "Threads")->capture_default_str();
+  AddPatchOptions(*command, arguments->patches);
   command->callback([arguments] { Extract(*arguments); });
 }
 

@@ -11,10 +11,12 @@
 #include "apps/exit_code.h"
 #include "apps/extract_command.h"
 #include "apps/info_command.h"
+#include "apps/match_command.h"
 #include "apps/render_command.h"
 #include "apps/report_command.h"
 #include "apps/run_command.h"
 #include "apps/synthesize_command.h"
+#include "apps/vocabulary_command.h"
 #include "apps/weights_command.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
@@ -24,8 +26,9 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
-    AddRunCommand,     AddEvaluateCommand, AddReportCommand, AddRenderCommand, AddSynthesizeCommand,
-    AddExtractCommand, AddWeightsCommand,  AddConfigCommand, AddInfoCommand,
+    AddRunCommand,        AddEvaluateCommand, AddReportCommand, AddRenderCommand,
+    AddSynthesizeCommand, AddExtractCommand,  AddMatchCommand,  AddWeightsCommand,
+    AddVocabularyCommand, AddConfigCommand,   AddInfoCommand,
 };
 
 void AddEverything(CLI::App& app) {

@@ -52,6 +52,17 @@ std::string NpyHeader(const char* type, const std::vector<std::size_t>& shape) {
          LittleEndian(static_cast<std::uint16_t>(text.size())) + text;
 }
 
+std::string NpyContents(const std::vector<std::size_t>& shape, const char* type,
+                        std::span<const std::byte> bytes) {
+  const std::size_t count =
+      std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+  LIFT_SLAM_CHECK(4 * count == bytes.size() && bytes.size() < 0x70000000U,
+                  "an array has {} bytes for {} values", bytes.size(), count);
+  std::string contents = NpyHeader(type, shape);
+  contents.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return contents;
+}
+
 // What the header of a file and the directory at the end have in common: version 2.0, no flags,
 // stored, 1 January 1980, checksum, both sizes, length of the name, nothing extra.
 std::string Properties(const std::string& name, const std::string& contents) {
@@ -62,6 +73,11 @@ std::string Properties(const std::string& name, const std::string& contents) {
 }
 
 }  // namespace
+
+void WriteNpy(const std::filesystem::path& path, const std::vector<std::size_t>& shape,
+              std::span<const float> values) {
+  WriteTextAtomically(path, NpyContents(shape, "<f4", std::as_bytes(values)));
+}
 
 void NpzFile::Add(const std::string& name, const std::vector<std::size_t>& shape,
                   std::span<const float> values) {
@@ -75,13 +91,7 @@ void NpzFile::Add(const std::string& name, const std::vector<std::size_t>& shape
 
 void NpzFile::AddBytes(const std::string& name, const std::vector<std::size_t>& shape,
                        const char* type, std::span<const std::byte> bytes) {
-  const std::size_t count =
-      std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
-  LIFT_SLAM_CHECK(4 * count == bytes.size() && bytes.size() < 0x70000000U,
-                  "array '{}' has {} bytes for {} values", name, bytes.size(), count);
-  std::string contents = NpyHeader(type, shape);
-  contents.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  entries_.push_back({name + ".npy", std::move(contents)});
+  entries_.push_back({name + ".npy", NpyContents(shape, type, bytes)});
 }
 
 void NpzFile::Write(const std::filesystem::path& path) const {

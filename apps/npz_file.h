@@ -8,6 +8,11 @@
 
 namespace lift_slam {
 
+// One array as a .npy file, atomically; row-major. CheckError unless the shape's product is the
+// number of values, InputError when the file cannot be written.
+void WriteNpy(const std::filesystem::path& path, const std::vector<std::size_t>& shape,
+              std::span<const float> values);
+
 // Collects arrays and writes them as an NPZ file (a zip archive of .npy files, not compressed),
 // which numpy.load reads. Little-endian machines only, as all that the program runs on.
 class NpzFile {

@@ -25,7 +25,7 @@ struct RunArguments {
   SequenceArguments sequence;
   ConfigArguments config;
   std::filesystem::path output;
-  std::string features = "orb";
+  std::string features, weights;  // empty: as the options say
   std::optional<int> seed;
   std::string mode;
 };
@@ -35,8 +35,11 @@ ProgramOptions EffectiveOptions(const RunArguments& arguments) {
   // The dedicated arguments are the last overrides, so that they are checked and named alike.
   if (arguments.seed) config.overrides.push_back(fmt::format("seed={}", *arguments.seed));
   if (!arguments.mode.empty()) config.overrides.push_back("mode=" + arguments.mode);
-  if (arguments.features != "orb") {
-    throw InputError(fmt::format("--features '{}': expected 'orb'", arguments.features));
+  if (!arguments.features.empty()) {
+    config.overrides.push_back("slam.features=" + arguments.features);
+  }
+  if (!arguments.weights.empty()) {
+    config.overrides.push_back("slam.lift_weights=" + arguments.weights);
   }
   return config.Read();
 }
@@ -63,7 +66,7 @@ FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
   FinishedRun finished(record, EvaluateRun(record, truth, EvaluationFor(info, options.evaluation)));
   finished.dataset = FormatName(info.format);
   finished.sequence = info.name;
-  finished.configuration = arguments.features;
+  finished.configuration = kFeatureTypeNames[static_cast<int>(options.slam.features.type)];
   finished.config_yaml = OptionsToYaml(MakeOptionRoot(options));
   finished.ground_truth = truth;
   finished.ground_truth_view = IsKitti(info.format) ? TopView::kXZ : TopView::kXY;
@@ -136,7 +139,9 @@ void AddRunCommand(CLI::App& app) {
       app.add_subcommand("run", "From a sequence to a trajectory, a map and a report");
   arguments->sequence.AddTo(*command);
   command->add_option("--output", arguments->output, "Folder for all results")->required();
-  command->add_option("--features", arguments->features, "Kind of features: orb");
+  command->add_option("--features", arguments->features, "Kind of features: orb (default) or lift");
+  command->add_option("--weights", arguments->weights, "LIFT weights (.safetensors)")
+      ->type_name("FILE");
   arguments->config.AddTo(*command);
   command->add_option("--seed", arguments->seed, "Of everything random (default 0)");
   command->add_option("--mode", arguments->mode, "sequential or threaded (default)");
@@ -146,6 +151,8 @@ void AddRunCommand(CLI::App& app) {
       "  lift_slam run drive.mp4 --camera camera.yaml --output runs/drive --frames 0:500:2\n"
       "  lift_slam run images/ --camera camera.yaml --output runs/x --set "
       "slam.orb.max_features=3000\n"
+      "  lift_slam run kitti/sequences/00 --features lift --weights lift.safetensors --output "
+      "runs/l\n"
       "Exit codes: 0 done, 1 bad input, 3 ran but found no usable trajectory (all files written).");
   command->callback([arguments] { Run(*arguments); });
 }

@@ -71,6 +71,19 @@ TEST_F(RunCommand, ImagesOfAnotherSizeAreSkippedAndCounted) {
   EXPECT_THAT(outcome.output, HasSubstr("000027.png: is 120x80 pixels, the sequence 480x360"));
 }
 
+TEST_F(RunCommand, LiftFeaturesNeedGoodWeights) {
+  const fs::path sequence = Render(kKitti, 3);
+  ExpectOneSentence(Run(sequence, "--features lift"),
+                    {"LIFT features need their weights", "--weights"});
+  ExpectOneSentence(Run(sequence, "--features lift --weights nowhere.safetensors"),
+                    {"nowhere.safetensors"});
+  WriteTextAtomically(folder_ / "text.safetensors", "not at all");
+  ExpectOneSentence(
+      Run(sequence, "--features lift --weights " + (folder_ / "text.safetensors").string()),
+      {"text.safetensors"});
+  ExpectOneSentence(Run(sequence, "--features surf"), {"surf", "orb", "lift"});
+}
+
 TEST_F(RunCommand, MissingCalibration) {
   const fs::path sequence = Render(kKitti, 3);
   fs::remove(sequence / "calib.txt");

@@ -6,6 +6,7 @@
 #include <set>
 #include <system_error>
 
+#include "apps/frame_table.h"
 #include "apps/run_report_data.h"
 #include "apps/run_result_json.h"
 #include "lift_slam/geometry/trajectory_io.h"
@@ -81,6 +82,7 @@ void WriteRunOutputs(const FinishedRun& finished, const fs::path& folder,
   fs::remove(folder / "result.json", ignored);  // of an earlier run: it vouches for the others
   WriteTrajectories(finished, folder, options);
   WriteFileAtomically(folder / "map.ply", [&](std::ostream& s) { WriteMapPly(finished.run, s); });
+  WriteTextAtomically(folder / "frames.csv", FrameTableCsv(finished.run));
   if (options.colmap) WriteColmapModels(finished, folder / "colmap");
   WriteTextAtomically(folder / "config.yaml", finished.config_yaml);
   if (options.report) {

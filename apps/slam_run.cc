@@ -6,7 +6,7 @@
 #include "apps/progress_bar.h"
 #include "apps/stop_signal.h"
 #include "lift_slam/datasets/prefetching_sequence.h"
-#include "lift_slam/features/orb/orb_extractor.h"
+#include "lift_slam/slam/feature_options.h"
 #include "lift_slam/slam/pipeline.h"
 #include "lift_slam/util/timer.h"
 
@@ -97,7 +97,9 @@ RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& opti
   }
   SlamOptions slam = options.slam;
   slam.seed = options.seed;
-  FramePreparer preparer(*info.camera, CreateOrbExtractor(slam.orb));
+  auto extractor = CreateFeatureExtractor(slam.features);
+  if (const std::string notice = extractor->Notice(); !notice.empty()) log.Warning(notice);
+  FramePreparer preparer(*info.camera, std::move(extractor), slam.alignment);
   SlamSystem system(*info.camera, preparer.view(), slam);
   const StopSignal stop;
   RunObserver observer(folder, info.num_frames, system, log);

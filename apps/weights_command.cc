@@ -9,6 +9,7 @@
 #include <iostream>
 #include <memory>
 
+#include "apps/measure_weights_command.h"
 #include "lift_slam/features/lift/lift_weights.h"
 #include "lift_slam/features/lift/lift_weights_import.h"
 #include "lift_slam/nn/weight_file.h"
@@ -136,9 +137,10 @@ void AddInfo(CLI::App& weights) {
 }  // namespace
 
 void AddWeightsCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("weights", "Import and describe network weights");
+  CLI::App* command = app.add_subcommand("weights", "Import, measure and describe network weights");
   command->require_subcommand(1);
   AddImport(*command);
+  AddMeasureWeightsCommands(*command);
   AddInfo(*command);
 }
 

@@ -18,7 +18,7 @@ void BM_MatchLocalPoints(benchmark::State& state) {
   int matches = 0;
   for (auto _ : state) {
     Frame matched = frame;
-    matches = MatchLocalPoints(*map, points, 1.0F, matched).num_matches;
+    matches = MatchLocalPoints(*map, points, 1.0F, 100.0F, matched).num_matches;
   }
   state.counters["features"] = frame.features->size();
   state.counters["points"] = static_cast<double>(points.size());
@@ -34,7 +34,7 @@ void BM_MatchFromLastFrame(benchmark::State& state) {
   int matches = 0;
   for (auto _ : state) {
     Frame matched = frame;
-    matches = MatchFromLastFrame(*map, last, 15.0F, matched);
+    matches = MatchFromLastFrame(*map, last, 15.0F, 100.0F, matched);
   }
   state.counters["matches"] = matches;
 }
@@ -49,7 +49,7 @@ void BM_MatchFromKeyFrame(benchmark::State& state) {
   int matches = 0;
   for (auto _ : state) {
     Frame matched = frame;
-    matches = MatchFromKeyFrame(*map, keyframe, matched);
+    matches = MatchFromKeyFrame(*map, keyframe, 50.0F, matched);
   }
   state.counters["matches"] = matches;
 }
@@ -63,7 +63,7 @@ void BM_MatchAlongEpipolarLines(benchmark::State& state) {
   const KeyFrame& b = map->keyframe(KeyFrameId(map->newest_keyframe().value - 3));
   std::size_t matches = 0;
   for (auto _ : state) {
-    matches = MatchAlongEpipolarLines(a, b, /*min_depth=*/1.0, *synthetic.view(), {}).size();
+    matches = MatchAlongEpipolarLines(a, b, /*min_depth=*/1.0, 50.0F, *synthetic.view(), {}).size();
   }
   state.counters["matches"] = static_cast<double>(matches);
 }

@@ -25,7 +25,7 @@ void BM_TrackFrame(benchmark::State& state) {
   const auto map = synthetic.MakeMap();
   const Frame last = synthetic.MakeTrackedFrame(kOptions.num_keyframes - 1);
   const Frame next = synthetic.MakeFrame(kOptions.num_keyframes);
-  Tracker started({}, /*seed=*/0);
+  Tracker started({}, MatchingOptions(), /*seed=*/0);
   started.Start(*map, last, next.cam_from_world * Inverse(last.cam_from_world));
   TrackingResult result;
   for (auto _ : state) {
@@ -47,7 +47,7 @@ void BM_MapKeyFrame(benchmark::State& state) {
     const auto map = synthetic.MakeMap();
     LocalMapper mapper({}, {});
     const double start_s = ThreadSeconds();
-    report = mapper.Process(map->AddKeyFrame(next), *map);
+    report = mapper.Process(map->AddKeyFrame(next), 50.0F, *map);
     state.SetIterationTime(ThreadSeconds() - start_s);
   }
   state.counters["points_created"] = report.points_created;

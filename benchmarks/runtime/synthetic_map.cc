@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kExtraCameras = 3;  // frames after the keyframes
 constexpr ScaleLevels kLevels = {8, 1.2, 1.0};
-constexpr MatchingThresholds kThresholds = {50.0F, 100.0F};
+constexpr ThresholdRange kThresholds = {{50.0F, 100.0F}, {50.0F, 100.0F}, {50.0F, 100.0F}};
 
 std::vector<Rigid3d> CameraPath(int num_cameras, double step_m) {
   std::vector<Rigid3d> cams_from_world;

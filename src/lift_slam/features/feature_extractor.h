@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "lift_slam/features/descriptors.h"
@@ -30,6 +31,13 @@ struct MatchingThresholds {
   float high = 0.0F;  // TH_HIGH: loose, guided search
 };
 
+// What the thresholds are, and how far they may be moved while tracking (paper sec. III-C).
+struct ThresholdRange {
+  MatchingThresholds fixed;   // where they stay when nothing adapts them
+  MatchingThresholds strict;  // the least: matches are plentiful
+  MatchingThresholds loose;   // the most: tracking is about to be lost
+};
+
 // Finds and describes features. One object serves one thread.
 class FeatureExtractor {
  public:
@@ -37,7 +45,9 @@ class FeatureExtractor {
   virtual FeatureSet Extract(const GrayImage& image) = 0;
   virtual const ScaleLevels& scale_levels() const = 0;
   virtual const DescriptorKind& descriptor_kind() const = 0;
-  virtual const MatchingThresholds& thresholds() const = 0;
+  virtual const ThresholdRange& thresholds() const = 0;
+  // What the user should know, a sentence: such as an option that this machine cannot follow.
+  virtual std::string Notice() const { return {}; }
 };
 
 }  // namespace lift_slam

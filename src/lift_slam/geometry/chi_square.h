@@ -8,4 +8,7 @@ namespace lift_slam {
 inline constexpr double kChiSquare95With1Dof = 3.841458820694124;
 inline constexpr double kChiSquare95With2Dof = 5.991464547107979;
 
+// The same with probability 0.99, -2 ln 0.01: where the model is still rough.
+inline constexpr double kChiSquare99With2Dof = 9.210340371976182;
+
 }  // namespace lift_slam

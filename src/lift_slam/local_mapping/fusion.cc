@@ -33,12 +33,13 @@ void AppendPoints(const KeyFrame& keyframe, std::vector<MapPointId>& points) {
 
 }  // namespace
 
-FusionCounts FuseWithNeighbors(KeyFrameId keyframe, const LocalMapperOptions& options, Map& map) {
+FusionCounts FuseWithNeighbors(KeyFrameId keyframe, const LocalMapperOptions& options,
+                               float max_distance, Map& map) {
   const auto radius = static_cast<float>(options.fusion_radius_px);
   const std::vector<KeyFrameId> targets = FusionTargets(keyframe, options, map);
   FusionCounts total;
   const auto fuse = [&](const std::vector<MapPointId>& points, KeyFrameId into) {
-    const FusionCounts counts = FusePoints(points, into, radius, map);
+    const FusionCounts counts = FusePoints(points, into, radius, max_distance, map);
     total.observations_added += counts.observations_added;
     total.points_merged += counts.points_merged;
   };

@@ -36,20 +36,20 @@ std::vector<KeyFrameId> StrongestObservers(const std::vector<KeyFrameId>& free, 
 
 }  // namespace
 
-MappingReport LocalMapper::Process(KeyFrameId keyframe, Map& map) {
+MappingReport LocalMapper::Process(KeyFrameId keyframe, float max_distance, Map& map) {
   MappingReport report;
   const Timer create_timer;
   for (const MapPointId id : map.keyframe(keyframe).map_points) {
     if (id.valid()) map.UpdateAppearance(id);
   }
   report.points_culled = CullRecentPoints(options_, map, recent_points_);
-  const std::vector<MapPointId> created = CreatePoints(keyframe, options_, map);
+  const std::vector<MapPointId> created = CreatePoints(keyframe, options_, max_distance, map);
   recent_points_.insert(recent_points_.end(), created.begin(), created.end());
   report.points_created = static_cast<int>(created.size());
   report.create_ms = create_timer.ElapsedMs();
 
   const Timer fuse_timer;
-  const FusionCounts fused = FuseWithNeighbors(keyframe, options_, map);
+  const FusionCounts fused = FuseWithNeighbors(keyframe, options_, max_distance, map);
   report.points_fused = fused.points_merged;
   report.fuse_ms = fuse_timer.ElapsedMs();
 

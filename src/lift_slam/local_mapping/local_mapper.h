@@ -25,8 +25,9 @@ class LocalMapper {
   LocalMapper(const LocalMapperOptions& options, const BundleOptions& bundle)
       : options_(options), bundle_options_(bundle) {}
 
-  // Call once for each new keyframe, before tracking goes on.
-  MappingReport Process(KeyFrameId keyframe, Map& map);
+  // Call once for each new keyframe, before tracking goes on. Descriptors match up to
+  // `max_distance`: the strict one of the thresholds.
+  MappingReport Process(KeyFrameId keyframe, float max_distance, Map& map);
 
  private:
   MapBundleReport AdjustLocalBundle(KeyFrameId keyframe, Map& map) const;

@@ -35,7 +35,7 @@ class LocalMappingTest : public testing::Test {
 
 TEST_F(LocalMappingTest, NewPointsLieWhereTheyAre) {
   FillHalf();
-  const std::vector<MapPointId> created = CreatePoints(second_, options_, map_);
+  const std::vector<MapPointId> created = CreatePoints(second_, options_, 50.0F, map_);
   EXPECT_GT(created.size(), 80U);
   for (const MapPointId id : created) {
     const auto feature = static_cast<std::size_t>(map_.point(id).FeatureIn(second_));
@@ -47,7 +47,7 @@ TEST_F(LocalMappingTest, NewPointsLieWhereTheyAre) {
 TEST_F(LocalMappingTest, NoPointsFromABaselineTooShort) {
   FillHalf();
   map_.SetPose(second_, CameraAt(0.001));
-  EXPECT_TRUE(CreatePoints(second_, options_, map_).empty());
+  EXPECT_TRUE(CreatePoints(second_, options_, 50.0F, map_).empty());
 }
 
 TEST_F(LocalMappingTest, RecentPointsRarelyFoundAreCulled) {
@@ -92,7 +92,7 @@ TEST_F(LocalMappingTest, FusionConnectsAKeyFrameWithWhatItSees) {
   Frame third = scene_.MakeFrame(2, CameraAt(0.5));
   for (std::size_t i = 0; i < 30; ++i) third.map_points[i] = map_.keyframe(first_).map_points[i];
   const KeyFrameId id = map_.AddKeyFrame(third);
-  const FusionCounts counts = FuseWithNeighbors(id, options_, map_);
+  const FusionCounts counts = FuseWithNeighbors(id, options_, 50.0F, map_);
   EXPECT_GT(counts.observations_added, 50);
   EXPECT_GT(map_.covisibility().SharedPoints(id, first_), 80);
 }
@@ -106,7 +106,7 @@ TEST_F(LocalMappingTest, OneStepRepairsADisturbedPoseAndMakesPoints) {
   third.cam_from_world = CameraAt(0.73);
   const KeyFrameId id = map_.AddKeyFrame(third);
   LocalMapper mapper(options_, {});
-  const MappingReport report = mapper.Process(id, map_);
+  const MappingReport report = mapper.Process(id, 50.0F, map_);
   EXPECT_TRUE(report.bundle.solver.usable) << report.bundle.solver.message;
   EXPECT_GT(report.points_created, 50);
   // The scale is free to move a little: compare the ratio of the baselines.

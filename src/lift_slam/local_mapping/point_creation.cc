@@ -6,6 +6,7 @@
 
 #include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/geometry/triangulation.h"
+#include "lift_slam/matching/observation_alignment.h"
 
 namespace lift_slam {
 namespace {
@@ -41,22 +42,31 @@ class PairTriangulator {
 
   // World position of the match's point; nothing when a check refuses it.
   std::optional<Eigen::Vector3d> Triangulate(const FeatureMatch& match) const {
+    return Triangulate(match, b_.features->pixel(match.b));
+  }
+
+  // The same with another pixel in b.
+  std::optional<Eigen::Vector3d> Triangulate(const FeatureMatch& match,
+                                             const Eigen::Vector2d& pixel_b) const {
     const Eigen::Vector3d ray_a = view_.pinhole.Unproject(a_.features->pixel(match.a));
-    const Eigen::Vector3d ray_b = view_.pinhole.Unproject(b_.features->pixel(match.b));
+    const Eigen::Vector3d ray_b = view_.pinhole.Unproject(pixel_b);
     const double cosine = (b_from_a_.rotation * ray_a).dot(ray_b) / (ray_a.norm() * ray_b.norm());
     if (cosine <= 0.0 || cosine >= max_cosine_) return std::nullopt;
     const auto in_a = TriangulatePoint(b_from_a_, ray_a.head<2>(), ray_b.head<2>());
-    if (!in_a || !ReprojectsWell(*in_a, a_, match.a)) return std::nullopt;
+    if (!in_a || !ReprojectsWell(*in_a, a_, match.a, a_.features->pixel(match.a))) {
+      return std::nullopt;
+    }
     const Eigen::Vector3d in_b = b_from_a_ * *in_a;
-    if (!ReprojectsWell(in_b, b_, match.b) || !ScaleFits(*in_a, in_b, match)) return std::nullopt;
+    if (!ReprojectsWell(in_b, b_, match.b, pixel_b) || !ScaleFits(*in_a, in_b, match))
+      return std::nullopt;
     return Inverse(a_.cam_from_world) * *in_a;
   }
 
  private:
-  bool ReprojectsWell(const Eigen::Vector3d& in_cam, const KeyFrame& keyframe, int feature) const {
+  bool ReprojectsWell(const Eigen::Vector3d& in_cam, const KeyFrame& keyframe, int feature,
+                      const Eigen::Vector2d& pixel) const {
     if (in_cam.z() <= 0.0) return false;
-    const double squared =
-        (view_.pinhole.Project(in_cam) - keyframe.features->pixel(feature)).squaredNorm();
+    const double squared = (view_.pinhole.Project(in_cam) - pixel).squaredNorm();
     const auto level = static_cast<std::size_t>(keyframe.features->level(feature));
     return squared * view_.inverse_variance[level] <= kChiSquare95With2Dof;
   }
@@ -80,10 +90,23 @@ class PairTriangulator {
   double max_cosine_;
 };
 
+// Aligns the point's observation in the other keyframe to its patch in the keyframe. False when the
+// point at the aligned pixels fails a check it had passed at the detected ones.
+bool AlignNewPoint(const PairTriangulator& triangulator, const FeatureMatch& match,
+                   KeyFrameId keyframe, KeyFrameId other, MapPointId id, Map& map) {
+  AnchorPoint(id, keyframe, map);
+  if (!AlignObservation(id, other, map)) return true;
+  MapPoint& point = map.point(id);
+  const auto seen = std::ranges::find(point.observations, other, &MapPoint::Observation::keyframe);
+  const auto position = triangulator.Triangulate(match, seen->pixel.cast<double>());
+  if (position) point.position = *position;
+  return position.has_value();
+}
+
 }  // namespace
 
 std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOptions& options,
-                                     Map& map) {
+                                     float max_distance, Map& map) {
   std::vector<MapPointId> created;
   const auto depth = MeasureDepth(map, keyframe_id);
   if (!depth) return created;
@@ -97,13 +120,17 @@ std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOp
     const double baseline = (keyframe.Center() - other.Center()).norm();
     if (baseline < options.min_baseline_ratio * depth->median) continue;
     const PairTriangulator triangulator(map, keyframe, other, options);
-    for (const FeatureMatch& match :
-         MatchAlongEpipolarLines(keyframe, other, depth->near, map.view(), options.epipolar)) {
+    for (const FeatureMatch& match : MatchAlongEpipolarLines(
+             keyframe, other, depth->near, max_distance, map.view(), options.epipolar)) {
       const auto position = triangulator.Triangulate(match);
       if (!position) continue;
       const MapPointId point = map.AddPoint(*position, keyframe_id);
       map.AddObservation(point, keyframe_id, match.a);
       map.AddObservation(point, neighbor.keyframe, match.b);
+      if (!AlignNewPoint(triangulator, match, keyframe_id, neighbor.keyframe, point, map)) {
+        map.ErasePoint(point);
+        continue;
+      }
       map.UpdateAppearance(point);
       created.push_back(point);
     }

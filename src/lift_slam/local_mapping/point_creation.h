@@ -8,8 +8,8 @@
 namespace lift_slam {
 
 // Triangulates features without map points of the keyframe against its best covisible keyframes.
-// Returns the new points in order of creation.
+// Returns the new points in order of creation. `max_distance` is of descriptors.
 std::vector<MapPointId> CreatePoints(KeyFrameId keyframe, const LocalMapperOptions& options,
-                                     Map& map);
+                                     float max_distance, Map& map);
 
 }  // namespace lift_slam

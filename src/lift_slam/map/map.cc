@@ -15,6 +15,7 @@ KeyFrameId Map::AddKeyFrame(const Frame& frame) {
   keyframe->features = frame.features;
   keyframe->cam_from_world = frame.cam_from_world;
   keyframe->map_points.resize(frame.map_points.size());
+  keyframe->pyramid = frame.pyramid;
   keyframes_.push_back(std::move(keyframe));
   replaced_by_.emplace_back();
   newest_keyframe_ = id;
@@ -23,7 +24,12 @@ KeyFrameId Map::AddKeyFrame(const Frame& frame) {
     const MapPoint* point = FindPoint(frame.map_points[i]);
     if (point != nullptr && point->FeatureIn(id) < 0) {
       AddObservation(point->id, id, static_cast<int>(i));
+      SetAlignedPixel(point->id, id, frame.AlignedPixel(static_cast<int>(i)));
     }
+  }
+  const std::int32_t without_image = id.value - kKeyFramesWithImage;
+  if (without_image >= 0 && keyframes_[static_cast<std::size_t>(without_image)]) {
+    keyframes_[static_cast<std::size_t>(without_image)]->pyramid.reset();
   }
   return id;
 }
@@ -123,7 +129,20 @@ void Map::AddObservation(MapPointId point_id, KeyFrameId keyframe_id, int featur
   const auto place = std::lower_bound(
       observed.observations.begin(), observed.observations.end(), keyframe_id,
       [](const MapPoint::Observation& o, KeyFrameId id) { return o.keyframe < id; });
-  observed.observations.insert(place, {keyframe_id, feature});
+  observed.observations.insert(
+      place, {keyframe_id, feature, keyframe(keyframe_id).features->undistorted(feature)});
+}
+
+void Map::SetAlignedPixel(MapPointId point_id, KeyFrameId keyframe_id,
+                          const std::optional<Eigen::Vector2f>& pixel) {
+  for (MapPoint::Observation& observation : point(point_id).observations) {
+    if (observation.keyframe != keyframe_id) continue;
+    observation.is_aligned = pixel.has_value();
+    observation.pixel =
+        pixel ? *pixel : keyframe(keyframe_id).features->undistorted(observation.feature);
+    return;
+  }
+  LIFT_SLAM_CHECK(false, "keyframe {} does not see point {}", keyframe_id.value, point_id.value);
 }
 
 void Map::RemoveObservation(MapPointId point_id, KeyFrameId keyframe_id) {

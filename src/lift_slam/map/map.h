@@ -22,6 +22,9 @@ class Map {
   std::shared_ptr<const ViewModel> shared_view() const { return view_; }
   const CovisibilityGraph& covisibility() const { return covisibility_; }
 
+  // Keyframes whose image is kept: the newest ones, for new observations in them.
+  static constexpr int kKeyFramesWithImage = 20;
+
   // The frame's matches become observations; matches with erased points are dropped.
   KeyFrameId AddKeyFrame(const Frame& frame);
   MapPointId AddPoint(const Eigen::Vector3d& position_in_world, KeyFrameId created_by);
@@ -48,11 +51,14 @@ class Map {
 
   // Connects a point and a keyframe's feature; both must be free of each other.
   void AddObservation(MapPointId point, KeyFrameId keyframe, int feature);
+  // Where alignment found the point in the keyframe; nothing: back to the detected pixel.
+  void SetAlignedPixel(MapPointId point, KeyFrameId keyframe,
+                       const std::optional<Eigen::Vector2f>& pixel);
   // Disconnects them; a point left with fewer than two observations is erased.
   void RemoveObservation(MapPointId point, KeyFrameId keyframe);
   void ErasePoint(MapPointId id);
   // Moves the observations of `from` to `into` where the keyframe does not see `into` yet, then
-  // erases `from`.
+  // erases `from`. What alignment found for them is forgotten.
   void MergePoints(MapPointId from, MapPointId into);
   // Erases a redundant keyframe; frames that refer to it go on through `PoseRelativeTo`.
   void EraseKeyFrame(KeyFrameId id);

@@ -13,7 +13,8 @@ constexpr int kFeatures = 8;
 std::shared_ptr<const ViewModel> TestView() {
   const PinholeIntrinsics pinhole{100.0, 100.0, 50.0, 50.0, 101, 101};
   return std::make_shared<ViewModel>(
-      MakeViewModel(pinhole, {0.0, 101.0, 0.0, 101.0}, {8, 1.2}, {50.0F, 100.0F}));
+      MakeViewModel(pinhole, {0.0, 101.0, 0.0, 101.0}, {8, 1.2},
+                    {{50.0F, 100.0F}, {50.0F, 100.0F}, {50.0F, 100.0F}}));
 }
 
 Frame MakeFrame(const ViewModel& view, std::int64_t index, const Eigen::Vector3d& center) {

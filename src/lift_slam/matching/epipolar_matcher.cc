@@ -91,7 +91,7 @@ NearestTwo SearchSegment(const KeyFrame& a, int i, const KeyFrame& b,
   NearestTwo nearest;
   features.ForEachNearSegment(segment.far, segment.near, max_error, [&](int j) {
     if (b.map_points[Index(j)].valid()) return;
-    if (std::abs(features.level(j) - a.features->level(i)) > 2) return;
+    if (std::abs(features.level(j) - a.features->level(i)) > view.level_tolerance + 1) return;
     const Eigen::Vector2d pixel = features.pixel(j);
     const double scale = view.scale[Index(features.level(j))];
     if (segment.Distance(pixel) > options.max_epipolar_error_px * scale) return;
@@ -131,7 +131,8 @@ std::vector<FeatureMatch> Consistent(const std::vector<FeatureMatch>& matches,
 }  // namespace
 
 std::vector<FeatureMatch> MatchAlongEpipolarLines(const KeyFrame& a, const KeyFrame& b,
-                                                  double min_depth, const ViewModel& view,
+                                                  double min_depth, float max_distance,
+                                                  const ViewModel& view,
                                                   const EpipolarMatchOptions& options) {
   const EpipolarGeometry geometry(a, b, min_depth, view);
   std::vector<FeatureMatch> matches;
@@ -141,7 +142,7 @@ std::vector<FeatureMatch> MatchAlongEpipolarLines(const KeyFrame& a, const KeyFr
     const auto segment = geometry.SegmentOf(a.features->pixel(i));
     if (!segment) continue;
     const NearestTwo nearest = SearchSegment(a, i, b, geometry, *segment, view, options);
-    if (nearest.best < 0 || nearest.best_distance > view.thresholds.low ||
+    if (nearest.best < 0 || nearest.best_distance > max_distance ||
         !nearest.IsDistinctive(static_cast<float>(options.max_descriptor_ratio))) {
       continue;
     }

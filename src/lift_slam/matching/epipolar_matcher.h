@@ -17,7 +17,8 @@ struct EpipolarMatchOptions {
 // Only points deeper than `min_depth` (map units, in a's camera) are looked for, which bounds the
 // segment of the line. Each feature is used once. In order of a.
 std::vector<FeatureMatch> MatchAlongEpipolarLines(const KeyFrame& a, const KeyFrame& b,
-                                                  double min_depth, const ViewModel& view,
+                                                  double min_depth, float max_distance,
+                                                  const ViewModel& view,
                                                   const EpipolarMatchOptions& options);
 
 }  // namespace lift_slam

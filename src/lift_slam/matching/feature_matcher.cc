@@ -32,10 +32,10 @@ class BestClaim {
 };
 
 NearestTwo SearchWindow(const FrameFeatures& a, int i, const FrameFeatures& b,
-                        const Eigen::Vector2f& center, float radius_px) {
+                        const Eigen::Vector2f& center, float radius_px, int level_tolerance) {
   NearestTwo nearest;
   b.ForEachInSquare(center.x(), center.y(), radius_px, [&](int j) {
-    if (std::abs(a.level(i) - b.level(j)) > 1) return;
+    if (std::abs(a.level(i) - b.level(j)) > level_tolerance) return;
     nearest.Offer(j, DescriptorDistance(a.descriptor_kind(), a.descriptor(i), b.descriptor(j)));
   });
   return nearest;
@@ -49,8 +49,9 @@ std::vector<FeatureMatch> MatchWithinWindow(const FrameFeatures& a, const FrameF
   std::vector<FeatureMatch> candidates;
   BestClaim claims(b.size());
   for (int i = 0; i < a.size(); ++i) {
-    const NearestTwo nearest = SearchWindow(a, i, b, expected_in_b[Index(i)], radius_px);
-    if (nearest.best < 0 || nearest.best_distance > view.thresholds.low ||
+    const NearestTwo nearest =
+        SearchWindow(a, i, b, expected_in_b[Index(i)], radius_px, view.level_tolerance);
+    if (nearest.best < 0 || nearest.best_distance > view.thresholds.fixed.low ||
         !nearest.IsDistinctive(kRatio)) {
       continue;
     }

@@ -12,7 +12,7 @@ struct FeatureMatch {
 
 // Matches for initialisation: features of `a` looked for in `b` within a window around
 // `expected_in_b[i]` (undistorted pixels), mutual nearest neighbours with ratio and rotation
-// checks, levels at most one apart. In order of a.
+// checks, levels at most view.level_tolerance apart. In order of a.
 std::vector<FeatureMatch> MatchWithinWindow(const FrameFeatures& a, const FrameFeatures& b,
                                             const std::vector<Eigen::Vector2f>& expected_in_b,
                                             float radius_px, const ViewModel& view);

@@ -1,7 +1,7 @@
 #include "lift_slam/matching/frame_matcher.h"
 
 #include <algorithm>
-#include <limits>
+#include <cstdlib>
 
 #include "lift_slam/matching/nearest_two.h"
 #include "lift_slam/matching/point_projection.h"
@@ -24,15 +24,15 @@ int RemoveRotationOutliers(const RotationConsistency& rotation, Frame& frame) {
   return static_cast<int>(outliers.size());
 }
 
-// Nearest two free features in the window whose level is in [min_level, max_level].
+// Nearest two free features in the window of about this level.
 NearestTwo SearchWindow(const Frame& frame, DescriptorView descriptor, const Eigen::Vector2d& pixel,
-                        float radius_px, int min_level, int max_level) {
+                        float radius_px, int level, int level_tolerance) {
   const FrameFeatures& features = *frame.features;
   NearestTwo nearest;
   features.ForEachInSquare(
       static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius_px, [&](int i) {
-        const int level = features.level(i);
-        if (level < min_level || level > max_level || frame.map_points[Index(i)].valid()) return;
+        if (std::abs(features.level(i) - level) > level_tolerance) return;
+        if (frame.map_points[Index(i)].valid()) return;
         nearest.Offer(
             i, DescriptorDistance(features.descriptor_kind(), descriptor, features.descriptor(i)));
       });
@@ -54,7 +54,8 @@ std::vector<MapPointId> SortedMatches(const Frame& frame) {
 
 }  // namespace
 
-int MatchFromLastFrame(const Map& map, const Frame& last, float radius_px, Frame& frame) {
+int MatchFromLastFrame(const Map& map, const Frame& last, float radius_px, float max_distance,
+                       Frame& frame) {
   const ViewModel& view = map.view();
   RotationConsistency rotation;
   int matches = 0;
@@ -67,9 +68,9 @@ int MatchFromLastFrame(const Map& map, const Frame& last, float radius_px, Frame
     if (!view.Covers(pixel)) continue;
     const int level = last.features->level(i);
     const NearestTwo nearest =
-        SearchWindow(frame, point->descriptor, pixel, radius_px * view.scale[Index(level)],
-                     level - 1, level + 1);
-    if (nearest.best < 0 || nearest.best_distance > view.thresholds.high) continue;
+        SearchWindow(frame, point->descriptor, pixel, radius_px * view.scale[Index(level)], level,
+                     view.level_tolerance);
+    if (nearest.best < 0 || nearest.best_distance > max_distance) continue;
     frame.map_points[Index(nearest.best)] = point->id;
     rotation.Add(last.features->keypoint(i).angle_rad,
                  frame.features->keypoint(nearest.best).angle_rad, nearest.best);
@@ -79,7 +80,7 @@ int MatchFromLastFrame(const Map& map, const Frame& last, float radius_px, Frame
 }
 
 LocalMatchResult MatchLocalPoints(const Map& map, std::span<const MapPointId> points,
-                                  float radius_factor, Frame& frame) {
+                                  float radius_factor, float max_distance, Frame& frame) {
   const ViewModel& view = map.view();
   const std::vector<MapPointId> matched = SortedMatches(frame);
   LocalMatchResult result;
@@ -95,8 +96,8 @@ LocalMatchResult MatchLocalPoints(const Map& map, std::span<const MapPointId> po
         (projection->viewing_cosine > kFrontalCosine ? kFrontalRadiusPx : kObliqueRadiusPx) *
         radius_factor * view.scale[Index(projection->level)];
     const NearestTwo nearest = SearchWindow(frame, point->descriptor, projection->pixel, radius,
-                                            projection->level - 1, projection->level + 1);
-    if (nearest.best < 0 || nearest.best_distance > view.thresholds.high) continue;
+                                            projection->level, view.level_tolerance);
+    if (nearest.best < 0 || nearest.best_distance > max_distance) continue;
     const bool same_level = nearest.second >= 0 && frame.features->level(nearest.best) ==
                                                        frame.features->level(nearest.second);
     if (same_level && !nearest.IsDistinctive(kLocalRatio)) continue;
@@ -106,7 +107,7 @@ LocalMatchResult MatchLocalPoints(const Map& map, std::span<const MapPointId> po
   return result;
 }
 
-int MatchFromKeyFrame(const Map& map, const KeyFrame& keyframe, Frame& frame) {
+int MatchFromKeyFrame(const Map& map, const KeyFrame& keyframe, float max_distance, Frame& frame) {
   const FrameFeatures& features = *frame.features;
   RotationConsistency rotation;
   int matches = 0;
@@ -120,7 +121,7 @@ int MatchFromKeyFrame(const Map& map, const KeyFrame& keyframe, Frame& frame) {
       nearest.Offer(
           j, DescriptorDistance(features.descriptor_kind(), descriptor, features.descriptor(j)));
     }
-    if (nearest.best < 0 || nearest.best_distance > map.view().thresholds.low ||
+    if (nearest.best < 0 || nearest.best_distance > max_distance ||
         !nearest.IsDistinctive(kKeyFrameRatio)) {
       continue;
     }

@@ -59,19 +59,20 @@ TEST_F(MatchingTest, EpipolarMatchesAreRightWithinTheDepthRange) {
   const KeyFrameId a = map_->AddKeyFrame(MakeFrame(0, Rigid3d()));
   const KeyFrameId b = map_->AddKeyFrame(MakeFrame(1, Step(0.3)));
   const auto matches =
-      MatchAlongEpipolarLines(map_->keyframe(a), map_->keyframe(b), 2.0, *view_, {});
+      MatchAlongEpipolarLines(map_->keyframe(a), map_->keyframe(b), 2.0, 50.0F, *view_, {});
   EXPECT_GT(matches.size(), 100U);
   for (const FeatureMatch& match : matches) EXPECT_EQ(match.a, match.b);
   // With a least depth behind all points, only features in the cells of a segment come along.
-  const auto none = MatchAlongEpipolarLines(map_->keyframe(a), map_->keyframe(b), 60.0, *view_, {});
+  const auto none =
+      MatchAlongEpipolarLines(map_->keyframe(a), map_->keyframe(b), 60.0, 50.0F, *view_, {});
   EXPECT_LT(none.size(), kPoints / 4U);
 }
 
 TEST_F(MatchingTest, EpipolarMatchingLeavesFeaturesWithPointsAlone) {
   FillMap();
-  EXPECT_TRUE(
-      MatchAlongEpipolarLines(map_->keyframe(first_), map_->keyframe(second_), 2.0, *view_, {})
-          .empty());
+  EXPECT_TRUE(MatchAlongEpipolarLines(map_->keyframe(first_), map_->keyframe(second_), 2.0, 50.0F,
+                                      *view_, {})
+                  .empty());
 }
 
 TEST_F(MatchingTest, LastFrameAndLocalPointsMatchesAreRight) {
@@ -79,12 +80,12 @@ TEST_F(MatchingTest, LastFrameAndLocalPointsMatchesAreRight) {
   Frame last = MakeFrame(1, Step(0.3));
   last.map_points = map_->keyframe(second_).map_points;
   Frame frame = MakeFrame(2, Step(0.45));
-  const int matches = MatchFromLastFrame(*map_, last, 15.0F, frame);
+  const int matches = MatchFromLastFrame(*map_, last, 15.0F, 100.0F, frame);
   EXPECT_GT(matches, 100);
   EXPECT_EQ(CountRight(frame), matches);
 
   Frame fresh = MakeFrame(3, Step(0.45));
-  const LocalMatchResult local = MatchLocalPoints(*map_, ids_, 1.0F, fresh);
+  const LocalMatchResult local = MatchLocalPoints(*map_, ids_, 1.0F, 100.0F, fresh);
   EXPECT_GT(local.num_matches, 100);
   EXPECT_EQ(CountRight(fresh), local.num_matches);
   EXPECT_GE(static_cast<int>(local.visible.size()), local.num_matches);
@@ -94,7 +95,7 @@ TEST_F(MatchingTest, KeyFrameMatchesNeedNoPrediction) {
   FillMap();
   Frame frame = MakeFrame(2, Step(0.4));
   frame.cam_from_world = Rigid3d(Eigen::Quaterniond::Identity(), {50.0, 0.0, 0.0});
-  const int matches = MatchFromKeyFrame(*map_, map_->keyframe(second_), frame);
+  const int matches = MatchFromKeyFrame(*map_, map_->keyframe(second_), 50.0F, frame);
   EXPECT_GT(matches, 100);
   EXPECT_EQ(CountRight(frame), matches);
 }
@@ -102,7 +103,7 @@ TEST_F(MatchingTest, KeyFrameMatchesNeedNoPrediction) {
 TEST_F(MatchingTest, FusionAddsObservationsAndMergesDuplicates) {
   FillMap();
   const KeyFrameId third = map_->AddKeyFrame(MakeFrame(2, Step(0.4)));
-  const FusionCounts added = FusePoints(ids_, third, 3.0F, *map_);
+  const FusionCounts added = FusePoints(ids_, third, 3.0F, 50.0F, *map_);
   EXPECT_GT(added.observations_added, 100);
   EXPECT_EQ(added.points_merged, 0);
 
@@ -116,7 +117,7 @@ TEST_F(MatchingTest, FusionAddsObservationsAndMergesDuplicates) {
     map_->UpdateAppearance(id);
   }
   const int before = map_->num_points();
-  const FusionCounts merged = FusePoints(ids_, fifth, 3.0F, *map_);
+  const FusionCounts merged = FusePoints(ids_, fifth, 3.0F, 50.0F, *map_);
   EXPECT_GT(merged.points_merged, 100);
   EXPECT_EQ(map_->num_points(), before - merged.points_merged);
 }

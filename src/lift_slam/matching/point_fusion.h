@@ -14,6 +14,6 @@ struct FusionCounts {
 // Projects map points into a keyframe; where a feature matches, the point gains an observation, or
 // two points turn out to be one and are merged into the one seen more often.
 FusionCounts FusePoints(std::span<const MapPointId> points, KeyFrameId keyframe, float radius_px,
-                        Map& map);
+                        float max_distance, Map& map);
 
 }  // namespace lift_slam

@@ -1,11 +1,20 @@
 #include "lift_slam/nn/precision.h"
 
 #include <algorithm>
+#include <iterator>
+
+#include "lift_slam/util/check.h"
 
 namespace lift_slam::nn {
 
 std::string_view Name(Precision precision) {
   return kPrecisionNames[static_cast<std::size_t>(precision)];
+}
+
+Precision ParsePrecision(std::string_view name) {
+  const auto found = std::ranges::find(kPrecisionNames, name);
+  LIFT_SLAM_CHECK(found != std::end(kPrecisionNames), "precision '{}' is unknown", name);
+  return static_cast<Precision>(found - std::begin(kPrecisionNames));
 }
 
 PrecisionChoice ChoosePrecision(Precision wanted, std::span<const std::string> cpu_features,

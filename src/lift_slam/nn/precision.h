@@ -14,6 +14,8 @@ enum class Precision {
 };
 inline constexpr std::string_view kPrecisionNames[] = {"float32", "bfloat16", "int8"};
 std::string_view Name(Precision precision);
+// Of a name of the list; CheckError for any other.
+Precision ParsePrecision(std::string_view name);
 
 struct PrecisionChoice {
   Precision used = Precision::kFloat32;

@@ -38,9 +38,10 @@ void AddPointsAndObservations(const Map& map, BundleIndex& index, BundleProblem&
       const int camera = index.CameraOf(observation.keyframe);
       if (camera < 0) continue;
       const FrameFeatures& features = *map.keyframe(observation.keyframe).features;
-      const auto level = static_cast<std::size_t>(features.level(observation.feature));
-      problem.observations.push_back({camera, point_index, features.pixel(observation.feature),
-                                      map.view().inverse_variance[level]});
+      problem.observations.push_back(
+          {camera, point_index, observation.pixel.cast<double>(),
+           map.view().InverseVariance(features.level(observation.feature),
+                                      observation.is_aligned)});
     }
   }
 }

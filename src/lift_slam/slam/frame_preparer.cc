@@ -1,6 +1,7 @@
 #include "lift_slam/slam/frame_preparer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lift_slam/util/timer.h"
 
@@ -18,19 +19,39 @@ FeatureSet KeepRows(const FeatureSet& features, const std::vector<std::size_t>& 
   return kept;
 }
 
-std::shared_ptr<const ViewModel> MakeView(const Camera& camera, const FeatureExtractor& extractor) {
+std::shared_ptr<const ViewModel> MakeView(const Camera& camera, const FeatureExtractor& extractor,
+                                          const PatchAlignmentOptions& alignment) {
   const UndistortedBounds bounds = FindUndistortedBounds(camera);
-  return std::make_shared<const ViewModel>(
+  ViewModel view =
       MakeViewModel(camera.pinhole, {bounds.min_x, bounds.max_x, bounds.min_y, bounds.max_y},
-                    extractor.scale_levels(), extractor.thresholds()));
+                    extractor.scale_levels(), extractor.thresholds());
+  view.alignment = alignment;
+  view.undistortion = std::make_shared<const UndistortionMap>(camera);
+  return std::make_shared<const ViewModel>(std::move(view));
+}
+
+// For patches of every scale of the features.
+PyramidShape ShapeForPatches(const ViewModel& view) {
+  PyramidShape shape;
+  shape.min_size_px = 2 * ReferencePatch::kStoredSide;
+  shape.num_levels =
+      1 + static_cast<int>(std::ceil(std::log(view.scale.back()) / std::log(shape.scale_factor)));
+  return shape;
 }
 
 }  // namespace
 
-FramePreparer::FramePreparer(const Camera& camera, std::unique_ptr<FeatureExtractor> extractor)
-    : undistortion_(camera),
-      extractor_(std::move(extractor)),
-      view_(MakeView(camera, *extractor_)) {}
+FramePreparer::FramePreparer(const Camera& camera, std::unique_ptr<FeatureExtractor> extractor,
+                             const PatchAlignmentOptions& alignment)
+    : extractor_(std::move(extractor)),
+      view_(MakeView(camera, *extractor_, alignment)),
+      pyramid_shape_(ShapeForPatches(*view_)) {}
+
+Frame PreparedFrame::MakeFrame() const {
+  Frame frame(input.frame_index, input.timestamp_ns, features);
+  frame.pyramid = pyramid;
+  return frame;
+}
 
 PreparedFrame FramePreparer::Prepare(InputFrame input) {
   PreparedFrame prepared;
@@ -42,7 +63,7 @@ PreparedFrame FramePreparer::Prepare(InputFrame input) {
     for (std::size_t i = 0; i < features.keypoints.size(); ++i) {
       const Keypoint& keypoint = features.keypoints[i];
       const auto pixel =
-          undistortion_.Undistort(Eigen::Vector2f(keypoint.x, keypoint.y).cast<double>());
+          view_->undistortion->Undistort(Eigen::Vector2f(keypoint.x, keypoint.y).cast<double>());
       if (!pixel) continue;
       undistorted.push_back(pixel->cast<float>());
       rows.push_back(i);
@@ -50,6 +71,10 @@ PreparedFrame FramePreparer::Prepare(InputFrame input) {
     if (rows.size() < features.keypoints.size()) features = KeepRows(features, rows);
     prepared.features =
         std::make_shared<const FrameFeatures>(std::move(features), std::move(undistorted), *view_);
+  }
+  if (prepared.features && view_->alignment.enabled) {
+    prepared.pyramid =
+        std::make_shared<const ImagePyramid>(BuildPyramid(input.image, pyramid_shape_));
   }
   prepared.input = std::move(input);
   prepared.extract_ms = timer.ElapsedMs();

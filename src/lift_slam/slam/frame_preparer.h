@@ -7,7 +7,7 @@
 #include "lift_slam/camera/undistortion.h"
 #include "lift_slam/features/feature_extractor.h"
 #include "lift_slam/image/image.h"
-#include "lift_slam/map/frame_features.h"
+#include "lift_slam/map/frame.h"
 #include "lift_slam/tracking/tracking_state.h"
 
 namespace lift_slam {
@@ -24,22 +24,26 @@ struct InputFrame {
 struct PreparedFrame {
   InputFrame input;
   std::shared_ptr<const FrameFeatures> features;  // null when refused
+  std::shared_ptr<const ImagePyramid> pyramid;    // null when refused or not needed
   double extract_ms = 0.0;
+
+  Frame MakeFrame() const;
 };
 
 // Image to features: extracts and undistorts. Knows nothing of the map, so it may run ahead in a
 // thread of its own; one object serves one thread.
 class FramePreparer {
  public:
-  FramePreparer(const Camera& camera, std::unique_ptr<FeatureExtractor> extractor);
+  FramePreparer(const Camera& camera, std::unique_ptr<FeatureExtractor> extractor,
+                const PatchAlignmentOptions& alignment = {});
 
   PreparedFrame Prepare(InputFrame input);
   const std::shared_ptr<const ViewModel>& view() const { return view_; }
 
  private:
-  UndistortionMap undistortion_;
   std::unique_ptr<FeatureExtractor> extractor_;
   std::shared_ptr<const ViewModel> view_;
+  PyramidShape pyramid_shape_;
 };
 
 }  // namespace lift_slam

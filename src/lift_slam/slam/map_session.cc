@@ -21,13 +21,13 @@ std::vector<int> MatchedFeatures(const Frame& frame) {
 
 MapSession::MapSession(InitialMap initial, const GrayImage& image, const SlamOptions& options)
     : map_(std::move(initial.map)),
-      tracker_(options.tracker, static_cast<std::uint64_t>(options.seed)),
+      tracker_(options.tracker, options.matching, static_cast<std::uint64_t>(options.seed)),
       mapper_(options.local_mapper, options.local_bundle),
       tracker_options_(options.tracker) {
   const KeyFrameId second = map_->newest_keyframe();
   Frame& current = initial.current;
   Backfill(std::move(initial.waiting), current);
-  mapper_.Process(second, *map_);
+  mapper_.Process(second, map_->view().thresholds.fixed.low, *map_);
   RememberGray(second, image);
   tracker_.Start(*map_, current, initial_velocity_);
   frames_.push_back({current.frame_index, second, Rigid3d()});
@@ -56,7 +56,7 @@ void MapSession::Backfill(std::vector<Frame> waiting, const Frame& current) {
 MapSession::Step MapSession::Process(const PreparedFrame& prepared) {
   Step step;
   const Timer track_timer;
-  Frame frame(prepared.input.frame_index, prepared.input.timestamp_ns, prepared.features);
+  Frame frame = prepared.MakeFrame();
   step.tracking = tracker_.Track(*map_, frame);
   step.track_ms = track_timer.ElapsedMs();
   if (step.tracking.refusal != FrameRefusal::kNone) return step;
@@ -79,7 +79,7 @@ MapSession::Step MapSession::Process(const PreparedFrame& prepared) {
 
 MappingReport MapSession::InsertKeyFrame(Frame& frame, const GrayImage& image) {
   const KeyFrameId keyframe = map_->AddKeyFrame(frame);
-  MappingReport report = mapper_.Process(keyframe, *map_);
+  MappingReport report = mapper_.Process(keyframe, tracker_.Thresholds(*map_).low, *map_);
   RememberGray(keyframe, image);
   tracker_.KeyFrameMapped(*map_, keyframe);
   frame.cam_from_world = map_->keyframe(keyframe).cam_from_world;

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "lift_slam/features/orb/orb_extractor.h"
+#include "lift_slam/slam/feature_options.h"
 #include "lift_slam/slam/slam_system.h"
 
 namespace lift_slam {
@@ -11,7 +11,8 @@ namespace {
 using NextFrame = std::function<std::optional<InputFrame>()>;
 
 RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const NextFrame& next) {
-  FramePreparer preparer(camera, CreateOrbExtractor(options.slam.orb));
+  FramePreparer preparer(camera, CreateFeatureExtractor(options.slam.features),
+                         options.slam.alignment);
   SlamSystem system(camera, preparer.view(), options.slam);
   RunPipeline(
       options.mode,
@@ -46,6 +47,10 @@ RunRecord RunSynthetic(const SyntheticSequenceOptions& sequence_options,
     ++index;
     return frame;
   });
+}
+
+RunRecord RunSynthetic(const SyntheticSequenceOptions& sequence) {
+  return RunSynthetic(sequence, TestRunOptions());
 }
 
 RunRecord RunSequence(std::unique_ptr<Sequence> sequence, const TestRunOptions& options) {

@@ -24,10 +24,10 @@ struct TestRunOptions {
 // `options` with a camera of 480 x 360 pixels, which keeps the tests quick.
 SyntheticSequenceOptions SmallSequence(SyntheticPath path, int num_frames, double frame_rate_hz);
 
-RunRecord RunSynthetic(const SyntheticSequenceOptions& sequence,
-                       const TestRunOptions& options = {});
+RunRecord RunSynthetic(const SyntheticSequenceOptions& sequence, const TestRunOptions& options);
+RunRecord RunSynthetic(const SyntheticSequenceOptions& sequence);  // default options
 // Runs a sequence of a dataset to its end, in threads.
-RunRecord RunSequence(std::unique_ptr<Sequence> sequence, const TestRunOptions& options = {});
+RunRecord RunSequence(std::unique_ptr<Sequence> sequence, const TestRunOptions& options);
 
 Trajectory TrueTrajectory(const SyntheticSequenceOptions& sequence);
 // The final trajectory against the truth, which may be empty.

@@ -87,8 +87,8 @@ PointRecord MakePointRecord(const MapSession& session, const MapPoint& point,
   double error = 0.0;
   for (const auto& observation : point.observations) {
     const KeyFrame& keyframe = map.keyframe(observation.keyframe);
-    const Eigen::Vector2d pixel = session.correction().ToIdeal(
-        map.view().pinhole, keyframe.features->pixel(observation.feature));
+    const Eigen::Vector2d pixel =
+        session.correction().ToIdeal(map.view().pinhole, observation.pixel.cast<double>());
     error += (map.view().pinhole.Project(keyframe.cam_from_world * point.position) - pixel).norm();
     row.observations.push_back({keyframe_rows[observation.keyframe.index()],
                                 static_cast<float>(pixel.x()), static_cast<float>(pixel.y())});

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 
-#include "lift_slam/features/orb/orb_options.h"
+#include "lift_slam/image/patch_alignment.h"
 #include "lift_slam/local_mapping/local_mapper_options.h"
+#include "lift_slam/matching/adaptive_thresholds.h"
 #include "lift_slam/optimization/bundle_adjustment.h"
+#include "lift_slam/slam/feature_options.h"
 #include "lift_slam/tracking/map_initializer.h"
 #include "lift_slam/tracking/tracker_options.h"
 
@@ -15,7 +17,9 @@ struct SlamOptions {
   double recovery_time_s = 1.0;   // a lost map is tried again so long, then a new one is begun
   int min_keyframes_to_keep = 5;  // a map lost with fewer is thrown away ("reset")
   bool final_bundle_adjustment = true;  // of every kept map, when the input has ended
-  OrbOptions orb;
+  FeatureOptions features;
+  MatchingOptions matching;
+  PatchAlignmentOptions alignment;
   MapInitializerOptions initializer;
   TrackerOptions tracker;
   LocalMapperOptions local_mapper;
@@ -30,7 +34,12 @@ struct SlamOptions {
                   "a map lost with fewer keyframes is thrown away");
     visitor.Field("final_bundle_adjustment", final_bundle_adjustment,
                   "adjust whole maps when the input has ended");
-    visitor.Group("orb", orb, "ORB features");
+    visitor.Field("features", features.type, kFeatureTypeNames, "kind of features");
+    visitor.Field("lift_weights", features.lift_weights, "file of LIFT's weights (.safetensors)");
+    visitor.Group("orb", features.orb, "ORB features");
+    visitor.Group("lift", features.lift, "LIFT features");
+    visitor.Group("matching", matching, "which descriptors match");
+    visitor.Group("alignment", alignment, "sub-pixel alignment of matched features");
     visitor.Group("initializer", initializer, "how a map is begun");
     visitor.Group("tracker", tracker, "image to pose");
     visitor.Group("local_mapper", local_mapper, "keyframe to map");

@@ -8,6 +8,7 @@ namespace lift_slam {
 SlamSystem::SlamSystem(const Camera& camera, std::shared_ptr<const ViewModel> view,
                        const SlamOptions& options)
     : camera_(camera), view_(std::move(view)), options_(options) {
+  options_.matching.Check();
   BeginInitializing();
 }
 
@@ -41,7 +42,7 @@ const FrameRecord& SlamSystem::Process(const PreparedFrame& prepared) {
 
 void SlamSystem::ProcessInitializing(const PreparedFrame& prepared, FrameRecord& record) {
   const Timer timer;
-  const Frame frame(record.frame_index, record.timestamp_ns, prepared.features);
+  const Frame frame = prepared.MakeFrame();
   MapInitializer::Result result = initializer_->Process(frame);
   record.refusal = result.refusal;
   record.num_matches = result.num_matches;
@@ -74,6 +75,10 @@ void SlamSystem::ProcessTracking(const PreparedFrame& prepared, FrameRecord& rec
   record.refusal = step.tracking.refusal;
   record.num_matches = step.tracking.num_matches;
   record.num_inliers = step.tracking.num_inliers;
+  record.low_threshold = step.tracking.thresholds.low;
+  record.high_threshold = step.tracking.thresholds.high;
+  record.num_last_matches = step.tracking.num_last_matches;
+  record.num_last_outliers = step.tracking.num_last_outliers;
   record.track_ms = step.track_ms;
   record.map_ms = step.map_ms;
   record_.stage_times_ms["track"].push_back(step.track_ms);
@@ -108,7 +113,7 @@ void SlamSystem::HandleLost(const PreparedFrame& prepared, FrameRecord& record) 
   }
   if (!session_) {
     BeginInitializing();
-    initializer_->Process(Frame(record.frame_index, record.timestamp_ns, prepared.features));
+    initializer_->Process(prepared.MakeFrame());
   }
 }
 

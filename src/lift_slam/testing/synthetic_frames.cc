@@ -14,7 +14,8 @@ SyntheticFrames::SyntheticFrames(int num_points, double min_depth, double max_de
     : random_(seed) {
   const PinholeIntrinsics pinhole{400.0, 400.0, 320.0, 240.0, 640, 480};
   view_ = std::make_shared<ViewModel>(
-      MakeViewModel(pinhole, {0.0, 640.0, 0.0, 480.0}, {8, 1.2, 1.0}, {50.0F, 100.0F}));
+      MakeViewModel(pinhole, {0.0, 640.0, 0.0, 480.0}, {8, 1.2, 1.0},
+                    {{50.0F, 100.0F}, {50.0F, 100.0F}, {50.0F, 100.0F}}));
   for (int i = 0; i < num_points; ++i) {
     const double z = random_.Uniform(min_depth, max_depth);
     const double x = random_.Uniform(-0.5, 0.5), y = random_.Uniform(-0.4, 0.4);

@@ -19,10 +19,11 @@ Rigid3d Interpolate(const Rigid3d& a, const Rigid3d& b, double share) {
 
 bool TrackOne(const Map& map, const TrackerOptions& options, Frame& frame,
               const std::vector<MapPointId>& points) {
-  MatchLocalPoints(map, points, kWideRadiusFactor, frame);
+  const float max_distance = map.view().thresholds.fixed.high;
+  MatchLocalPoints(map, points, kWideRadiusFactor, max_distance, frame);
   if (OptimizeFramePose(map, options.pose, frame) < options.min_inliers_first) return false;
   const LocalMap local = CollectLocalMap(map, frame, options.max_local_keyframes);
-  MatchLocalPoints(map, local.points, 1.0F, frame);
+  MatchLocalPoints(map, local.points, 1.0F, max_distance, frame);
   return OptimizeFramePose(map, options.pose, frame) >= options.min_inliers;
 }
 

@@ -9,9 +9,12 @@ int OptimizeFramePose(const Map& map, const PoseOptimizationOptions& options, Fr
     const MapPoint* point = map.FindPoint(frame.map_points[i]);
     if (point == nullptr) continue;
     const int feature = static_cast<int>(i);
-    const auto level = static_cast<std::size_t>(frame.features->level(feature));
+    const auto aligned = frame.AlignedPixel(feature);
+    const Eigen::Vector2d pixel =
+        aligned ? aligned->cast<double>() : frame.features->pixel(feature);
     observations.push_back(
-        {frame.features->pixel(feature), point->position, map.view().inverse_variance[level]});
+        {pixel, point->position,
+         map.view().InverseVariance(frame.features->level(feature), aligned.has_value())});
     features.push_back(i);
   }
   const PoseOptimizationResult result =

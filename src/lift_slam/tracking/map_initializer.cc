@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lift_slam/matching/observation_alignment.h"
 #include "lift_slam/util/check.h"
 
 namespace lift_slam {
@@ -72,6 +73,7 @@ MapInitializer::Result MapInitializer::Process(const Frame& frame) {
     expected_[Index(match.a)] = frame.features->undistorted(match.b);
   }
   waiting_.push_back(frame);
+  waiting_.back().pyramid.reset();  // only the reference's is needed
   poor_frames_ = result.refusal == FrameRefusal::kTooFewMatches ? poor_frames_ + 1 : 0;
   if (poor_frames_ >= options_.max_poor_frames) MoveReference();
   if (waiting_.size() > Index(options_.max_waiting_frames) && reference_ > 0) {
@@ -128,6 +130,8 @@ std::optional<InitialMap> MapInitializer::BuildMap(const Frame& frame,
     map.AddObservation(point, first_id, matches[k].a);
     map.AddObservation(point, second_id, matches[k].b);
     map.UpdateAppearance(point);
+    AnchorPoint(point, second_id, map);
+    AlignObservation(point, first_id, map);
   }
   if (map.num_points() < options_.min_points) return std::nullopt;
   const MapBundleReport report = AdjustWholeMap(bundle_options_, map);

@@ -4,6 +4,7 @@
 
 #include "lift_slam/geometry/absolute_pose.h"
 #include "lift_slam/matching/frame_matcher.h"
+#include "lift_slam/matching/observation_alignment.h"
 #include "lift_slam/tracking/frame_pose.h"
 #include "lift_slam/tracking/local_map.h"
 
@@ -14,10 +15,6 @@ namespace {
 constexpr int kMinFeatures = 50;
 // After a recovery the pose is rough: wider windows in the local map.
 constexpr float kWideRadiusFactor = 3.0F;
-
-void ClearMatches(Frame& frame) {
-  std::fill(frame.map_points.begin(), frame.map_points.end(), MapPointId());
-}
 
 void CountSightings(const std::vector<MapPointId>& visible, const Frame& frame, Map& map) {
   for (const MapPointId id : visible) ++map.point(id).num_visible;
@@ -45,12 +42,13 @@ void Tracker::KeyFrameMapped(const Map& map, KeyFrameId keyframe) {
 
 TrackingResult Tracker::Track(Map& map, Frame& frame) {
   TrackingResult result;
+  result.thresholds = Thresholds(map);
   ++frames_since_keyframe_;
   if (frame.features->size() < kMinFeatures) {
     result.refusal = FrameRefusal::kTooFewFeatures;
   } else {
     bool found = last_was_tracked_ &&
-                 (TrackWithMotionModel(map, frame) || TrackReferenceKeyFrame(map, frame));
+                 (TrackWithMotionModel(map, frame, result) || TrackReferenceKeyFrame(map, frame));
     if (found) found = TrackLocalMap(map, frame, /*wide=*/false, result) >= options_.min_inliers;
     if (!found && Recover(map, frame)) {
       result.recovered = true;
@@ -62,11 +60,13 @@ TrackingResult Tracker::Track(Map& map, Frame& frame) {
     }
   }
   if (result.refusal != FrameRefusal::kNone) {
-    ClearMatches(frame);
+    frame.ClearMatches();
     last_was_tracked_ = false;
     velocity_.reset();
+    adaptive_.looseness = 1.0;
     return result;
   }
+  adaptive_ = Adapt(adaptive_, matching_, result.num_last_matches, result.num_last_outliers);
   result.reference = reference_;
   result.needs_keyframe = ShouldBecomeKeyFrame(map, result.num_inliers, reference_,
                                                frames_since_keyframe_, options_.keyframe);
@@ -81,16 +81,26 @@ void Tracker::Remember(const Frame& frame) {
   last_was_tracked_ = true;
 }
 
-bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame) const {
+bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) const {
   frame.cam_from_world = velocity_ ? *velocity_ * last_.cam_from_world : last_.cam_from_world;
   const auto radius = static_cast<float>(options_.search_radius_px);
-  int matches = MatchFromLastFrame(map, last_, radius, frame);
+  int matches = MatchFromLastFrame(map, last_, radius, result.thresholds.high, frame);
+  if (matches < options_.min_matches) result.thresholds = LoosestThresholds(map);
   for (int widening = 0; widening < 2 && matches < options_.min_matches; ++widening) {
-    ClearMatches(frame);
-    matches = MatchFromLastFrame(map, last_, radius * static_cast<float>(2 << widening), frame);
+    frame.ClearMatches();
+    matches = MatchFromLastFrame(map, last_, radius * static_cast<float>(2 << widening),
+                                 result.thresholds.high, frame);
   }
-  return matches >= options_.min_matches &&
-         OptimizeFramePose(map, options_.pose, frame) >= options_.min_inliers_first;
+  if (matches < options_.min_matches) return false;
+  const int inliers = OptimizeFramePose(map, options_.pose, frame);
+  if (inliers < options_.min_inliers_first) return false;
+  result.num_last_matches = matches;
+  result.num_last_outliers = matches - inliers;
+  return true;
+}
+
+MatchingThresholds Tracker::LoosestThresholds(const Map& map) const {
+  return AdaptiveThresholds{1.0}.In(map.view().thresholds, matching_.thresholds);
 }
 
 bool Tracker::TrackReferenceKeyFrame(const Map& map, Frame& frame) const {
@@ -112,8 +122,11 @@ bool Tracker::Recover(const Map& map, Frame& frame) const {
 }
 
 bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const {
-  ClearMatches(frame);
-  if (MatchFromKeyFrame(map, map.keyframe(keyframe), frame) < options_.min_matches) return false;
+  frame.ClearMatches();
+  const float max_distance = LoosestThresholds(map).low;
+  if (MatchFromKeyFrame(map, map.keyframe(keyframe), max_distance, frame) < options_.min_matches) {
+    return false;
+  }
   const ViewModel& view = map.view();
   std::vector<PointMatch> matches;
   for (int i = 0; i < frame.features->size(); ++i) {
@@ -133,8 +146,9 @@ bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) con
 int Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result) {
   const LocalMap local = CollectLocalMap(map, frame, options_.max_local_keyframes);
   if (local.reference.valid()) reference_ = local.reference;
-  const LocalMatchResult matched =
-      MatchLocalPoints(map, local.points, wide ? kWideRadiusFactor : 1.0F, frame);
+  const LocalMatchResult matched = MatchLocalPoints(
+      map, local.points, wide ? kWideRadiusFactor : 1.0F, result.thresholds.high, frame);
+  AlignMatches(map, frame);
   result.num_matches = frame.CountMatches();
   result.num_inliers = OptimizeFramePose(map, options_.pose, frame);
   CountSightings(matched.visible, frame, map);

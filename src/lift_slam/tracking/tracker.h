@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "lift_slam/map/map.h"
+#include "lift_slam/matching/adaptive_thresholds.h"
 #include "lift_slam/tracking/tracker_options.h"
 #include "lift_slam/tracking/tracking_state.h"
 
@@ -15,7 +16,10 @@ struct TrackingResult {
   int num_inliers = 0;
   KeyFrameId reference;  // the frame's pose is kept relative to it
   bool needs_keyframe = false;
-  bool recovered = false;  // found again without a prediction
+  bool recovered = false;         // found again without a prediction
+  MatchingThresholds thresholds;  // that the frame was tracked with
+  int num_last_matches = 0;       // with the last frame's points; 0 when they gave no pose
+  int num_last_outliers = 0;      // of these, that disagree with the pose
 };
 
 // Image to pose within one map (paper sec. III-B "Tracking"): predict by constant velocity, match
@@ -23,7 +27,8 @@ struct TrackingResult {
 // the prediction fails: the recent keyframes by descriptors alone.
 class Tracker {
  public:
-  Tracker(const TrackerOptions& options, std::uint64_t seed) : options_(options), seed_(seed) {}
+  Tracker(const TrackerOptions& options, const MatchingOptions& matching, std::uint64_t seed)
+      : options_(options), matching_(matching), seed_(seed) {}
 
   // Starts in a map whose newest keyframe is `last` (pose and matches valid).
   void Start(const Map& map, const Frame& last, std::optional<Rigid3d> velocity);
@@ -35,15 +40,23 @@ class Tracker {
   // matches and points.
   void KeyFrameMapped(const Map& map, KeyFrameId keyframe);
 
+  // As they stand for the next frame and for mapping.
+  MatchingThresholds Thresholds(const Map& map) const {
+    return adaptive_.In(map.view().thresholds, matching_.thresholds);
+  }
+
  private:
-  bool TrackWithMotionModel(const Map& map, Frame& frame) const;
+  bool TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) const;
   bool TrackReferenceKeyFrame(const Map& map, Frame& frame) const;
   bool Recover(const Map& map, Frame& frame) const;
+  MatchingThresholds LoosestThresholds(const Map& map) const;
   bool TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const;
   int TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result);
   void Remember(const Frame& frame);
 
   TrackerOptions options_;
+  MatchingOptions matching_;
+  AdaptiveThresholds adaptive_;
   std::uint64_t seed_;
   Frame last_;
   bool last_was_tracked_ = false;

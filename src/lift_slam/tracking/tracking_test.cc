@@ -29,7 +29,7 @@ TEST_F(TrackingTest, FollowsAMovingCameraFrameByFrame) {
   scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
   Frame last = scene_.MakeFrame(1, CameraAt(0.2));
   last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
-  Tracker tracker({}, 0);
+  Tracker tracker({}, MatchingOptions(), 0);
   tracker.Start(map_, last, std::nullopt);
   for (int k = 0; k < 10; ++k) {
     const Rigid3d truth = CameraAt(0.22 + 0.02 * k, 0.02 * k, 0.002 * k);
@@ -46,7 +46,7 @@ TEST_F(TrackingTest, AJumpIsBridgedByTheReferenceKeyFrame) {
   scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
   Frame last = scene_.MakeFrame(1, CameraAt(0.2));
   last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
-  Tracker tracker({}, 0);
+  Tracker tracker({}, MatchingOptions(), 0);
   tracker.Start(map_, last, std::nullopt);
   const Rigid3d truth = CameraAt(-0.6, 0.2, 0.25);
   Frame frame = scene_.MakeFrame(2, truth);
@@ -60,7 +60,7 @@ TEST_F(TrackingTest, AnotherSceneIsRefusedWithAReasonAndLeavesNoMatches) {
   scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
   Frame last = scene_.MakeFrame(1, CameraAt(0.2));
   last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
-  Tracker tracker({}, 0);
+  Tracker tracker({}, MatchingOptions(), 0);
   tracker.Start(map_, last, std::nullopt);
   SyntheticFrames other(kPoints, 3.0, 8.0, 99);
   Frame frame = other.MakeFrame(2, CameraAt(0.2));

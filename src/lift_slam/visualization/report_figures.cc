@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "lift_slam/visualization/map_raster.h"
 #include "lift_slam/visualization/xml_text.h"
@@ -255,6 +256,39 @@ Figure TrackingFigure(const RunRecord& run) {
       FrameSeries(run, "matched with the reference frame", PlotColor::kBlue,
                   [](const FrameRecord& f) { return static_cast<double>(f.num_matches); })};
   return figure;
+}
+
+std::vector<Figure> ThresholdFigures(const RunRecord& run) {
+  const auto when_tracked = [](auto FrameRecord::*value) {
+    return [value](const FrameRecord& f) {
+      return f.high_threshold > 0.0F ? static_cast<double>(f.*value) : kGap;
+    };
+  };
+  Plot plot;
+  plot.width_px = 1140;
+  plot.height_px = 200;
+  plot.x = {"frame", /*integers=*/true, {}, {}};
+  Figure thresholds{"Matching thresholds", plot, {}};
+  thresholds.plot.description = "Adaptive matching thresholds of each frame";
+  thresholds.plot.y = {"distance", false, {}, {}};
+  thresholds.plot.series = {FrameSeries(run, "high (guided)", PlotColor::kVermilion,
+                                        when_tracked(&FrameRecord::high_threshold)),
+                            FrameSeries(run, "low (strict)", PlotColor::kBlue,
+                                        when_tracked(&FrameRecord::low_threshold))};
+  std::set<float> values;
+  for (const FrameRecord& frame : run.frames) {
+    if (frame.high_threshold > 0.0F) values.insert(frame.high_threshold);
+  }
+  if (values.size() < 2) return {};
+  Figure matches{"Matches with the last frame", plot,
+                 "The thresholds rise when the matches that agree with the pose get few."};
+  matches.plot.description = matches.title;
+  matches.plot.y = {"points", /*integers=*/true, 0.0, {}};
+  matches.plot.series = {FrameSeries(run, "matched map points", PlotColor::kSky,
+                                     when_tracked(&FrameRecord::num_last_matches)),
+                         FrameSeries(run, "outliers", PlotColor::kOrange,
+                                     when_tracked(&FrameRecord::num_last_outliers))};
+  return {std::move(thresholds), std::move(matches)};
 }
 
 Figure StageTimesFigure(const RunRecord& run) {

@@ -23,6 +23,9 @@ Figure ErrorFigure(const ReportScene& scene, const ReportData& data);
 // Tracked points of each frame, with the states behind and the keyframes below. When no frame has
 // a pose: features and matches instead.
 Figure TrackingFigure(const RunRecord& run);
+// Adaptive thresholds of each frame, and below them what moves them: the matches with the last
+// frame's points and the outliers of these (paper Fig. 5). Empty when the thresholds were fixed.
+std::vector<Figure> ThresholdFigures(const RunRecord& run);
 // Extraction, tracking and mapping of each frame.
 Figure StageTimesFigure(const RunRecord& run);
 // Points of a path's map from above, with path and keyframes.

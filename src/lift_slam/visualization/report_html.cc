@@ -173,8 +173,10 @@ std::string ReportHtml(const RunRecord& run, const ReportData& data) {
   html += HeaderHtml(data) + "<main>\n";
   html += Section("trajectory", "Trajectory", TrajectoryHtml(run, scene, data));
   const bool any_frame = !run.frames.empty();
+  std::string thresholds;
+  for (const Figure& figure : ThresholdFigures(run)) thresholds += FigureHtml(figure, "wide");
   html += Section("tracking", "Tracking",
-                  (any_frame ? FigureHtml(TrackingFigure(run), "wide") : "") + "<br>" +
+                  (any_frame ? FigureHtml(TrackingFigure(run), "wide") : "") + thresholds + "<br>" +
                       Scrolling(StatesHtml(run)) + Scrolling(RefusalsHtml(run)));
   html += Section("time", "Time",
                   (any_frame ? FigureHtml(StageTimesFigure(run), "wide") + "<br>" : "") +

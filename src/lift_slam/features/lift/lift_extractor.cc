@@ -10,6 +10,7 @@
 #include "lift_slam/features/spread_selection.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/sha256.h"
+#include "lift_slam/util/system_info.h"
 
 namespace lift_slam {
 namespace {
@@ -27,7 +28,7 @@ LiftExtractorOptions Checked(const LiftWeights& weights, const LiftExtractorOpti
 LiftNetworkOptions NetworkOptions(const LiftExtractorOptions& options) {
   LiftNetworkOptions result;
   result.precision = options.precision;
-  result.num_threads = options.num_threads;
+  result.num_threads = options.num_threads > 0 ? options.num_threads : NumHardwareThreads();
   return result;
 }
 
@@ -54,15 +55,17 @@ DescriptorKind LiftDescriptorKind(const LiftWeights& weights, bool upright) {
           kLiftDescriptorSize};
 }
 
-MatchingThresholds LiftThresholds(const LiftWeights& weights, const LiftExtractorOptions& options) {
-  MatchingThresholds thresholds{2.0F, 3.0F};
+ThresholdRange LiftThresholds(const LiftWeights& weights, const LiftExtractorOptions& options) {
+  ThresholdRange range{{2.0F, 3.0F}, {1.0F, 2.0F}, {2.0F, 3.0F}};
   if (weights.distances) {
-    thresholds = {weights.distances->matching[4], weights.distances->nearest_wrong[2]};
+    const auto& [matching, wrong] = *weights.distances;
+    const auto [low, middle] = std::minmax(matching[4], wrong[2]);
+    range = {{low, middle}, {low, middle}, {middle, std::max(middle, wrong[4])}};
   }
-  if (options.low_threshold > 0.0) thresholds.low = static_cast<float>(options.low_threshold);
-  if (options.high_threshold > 0.0) thresholds.high = static_cast<float>(options.high_threshold);
-  thresholds.high = std::max(thresholds.low, thresholds.high);
-  return thresholds;
+  if (options.low_threshold > 0.0) range.fixed.low = static_cast<float>(options.low_threshold);
+  if (options.high_threshold > 0.0) range.fixed.high = static_cast<float>(options.high_threshold);
+  range.fixed.high = std::max(range.fixed.low, range.fixed.high);
+  return range;
 }
 
 LiftExtractor::LiftExtractor(const LiftWeights& weights, const LiftExtractorOptions& options)
@@ -95,6 +98,12 @@ FeatureSet LiftExtractor::Extract(const GrayImage& image) {
     std::memcpy(features.descriptors.mutable_data(), values.data(), values.size_bytes());
   }
   return features;
+}
+
+std::string LiftExtractor::Notice() const {
+  const nn::PrecisionChoice& choice = precision();
+  if (choice.reason.empty()) return {};
+  return fmt::format("LIFT's descriptors in {}: {}", nn::Name(choice.used), choice.reason);
 }
 
 std::vector<LiftKeypoint> LiftExtractor::DetectSpread(const GrayImage& image) {

@@ -24,7 +24,10 @@ class LiftExtractor : public FeatureExtractor {
   FeatureSet Extract(const GrayImage& image) override;
   const ScaleLevels& scale_levels() const override { return scale_levels_; }
   const DescriptorKind& descriptor_kind() const override { return kind_; }
-  const MatchingThresholds& thresholds() const override { return thresholds_; }
+  const ThresholdRange& thresholds() const override { return thresholds_; }
+
+  // When the descriptor runs in another precision than asked for.
+  std::string Notice() const override;
 
   // Of the descriptor: what the CPU runs, and why it is not what was asked for.
   const nn::PrecisionChoice& precision() const { return networks_.precision(); }
@@ -39,7 +42,7 @@ class LiftExtractor : public FeatureExtractor {
   PatchCutter cutter_;
   ScaleLevels scale_levels_;
   DescriptorKind kind_;
-  MatchingThresholds thresholds_;
+  ThresholdRange thresholds_;
 };
 
 std::unique_ptr<FeatureExtractor> CreateLiftExtractor(const LiftWeights& weights,
@@ -49,7 +52,10 @@ std::unique_ptr<FeatureExtractor> CreateLiftExtractor(const LiftWeights& weights
 // ":upright" for patches that are not turned: what must agree for descriptors to be compared.
 DescriptorKind LiftDescriptorKind(const LiftWeights& weights, bool upright);
 
-// The 95 % quantile of distances that match, and the median of the nearest that do not.
-MatchingThresholds LiftThresholds(const LiftWeights& weights, const LiftExtractorOptions& options);
+// From the distances measured with the weights: the fixed ones are the 95 % quantile of those that
+// match and the median of the nearest that do not. While tracking, the low one moves between those
+// two and the high one from the median of the nearest that do not match to their 95 % quantile.
+// Without measured distances: the paper's, from 1 and 2 (EuRoC) to 2 and 3 (KITTI), fixed at 2, 3.
+ThresholdRange LiftThresholds(const LiftWeights& weights, const LiftExtractorOptions& options);
 
 }  // namespace lift_slam

@@ -72,7 +72,8 @@ TEST(LiftExtractor, KeypointsAreWithinTheImageWithScalesOfTheirLevels) {
 
 TEST(LiftExtractor, UprightDescriptorsAreThoseOfTheirPatches) {
   const LiftWeights weights = RandomLiftWeights(LiftTopology::kF, 3, /*with_orientation=*/false);
-  LiftExtractor extractor(weights, {.max_features = 5, .upright = true});
+  LiftExtractor extractor(
+      weights, {.max_features = 5, .precision = nn::Precision::kFloat32, .upright = true});
   const GrayImage image = Texture(230, 170);
   const FeatureSet features = extractor.Extract(image);
   KeypointDetector detector({});
@@ -136,15 +137,34 @@ TEST(LiftDescriptorKind, TellsWeightsAndOrientationApart) {
   EXPECT_EQ(LiftDescriptorKind(saved, false).name, "lift:c0ffee");
 }
 
+void ExpectThresholds(const MatchingThresholds& actual, float low, float high) {
+  EXPECT_EQ(actual.low, low);
+  EXPECT_EQ(actual.high, high);
+}
+
 TEST(LiftThresholds, ComeFromOptionsThenWeightsThenThePaper) {
   LiftWeights weights = RandomLiftWeights(LiftTopology::kF, 1);
-  EXPECT_EQ(LiftThresholds(weights, {}).low, 2.0F);
-  EXPECT_EQ(LiftThresholds(weights, {}).high, 3.0F);
+  ExpectThresholds(LiftThresholds(weights, {}).fixed, 2.0F, 3.0F);
+  ExpectThresholds(LiftThresholds(weights, {}).strict, 1.0F, 2.0F);
+  ExpectThresholds(LiftThresholds(weights, {}).loose, 2.0F, 3.0F);
   weights.distances =
       DistanceQuantiles{{0.1F, 0.2F, 0.5F, 0.9F, 1.3F}, {1.0F, 1.5F, 2.1F, 2.4F, 3.0F}};
-  EXPECT_EQ(LiftThresholds(weights, {}).low, 1.3F);
-  EXPECT_EQ(LiftThresholds(weights, {}).high, 2.1F);
-  EXPECT_EQ(LiftThresholds(weights, {.low_threshold = 1.0}).low, 1.0F);
+  ExpectThresholds(LiftThresholds(weights, {}).fixed, 1.3F, 2.1F);
+  ExpectThresholds(LiftThresholds(weights, {}).strict, 1.3F, 2.1F);
+  ExpectThresholds(LiftThresholds(weights, {}).loose, 2.1F, 3.0F);
+  ExpectThresholds(LiftThresholds(weights, {.low_threshold = 1.0}).fixed, 1.0F, 2.1F);
+}
+
+// Weights whose matches lie farther apart than their impostors have no gap to put a threshold in.
+TEST(LiftThresholds, StayInOrder) {
+  LiftWeights weights = RandomLiftWeights(LiftTopology::kF, 1);
+  weights.distances =
+      DistanceQuantiles{{0.1F, 0.2F, 0.5F, 0.9F, 3.5F}, {1.0F, 1.5F, 2.1F, 2.4F, 3.0F}};
+  const ThresholdRange range = LiftThresholds(weights, {});
+  EXPECT_LE(range.strict.low, range.strict.high);
+  EXPECT_LE(range.strict.low, range.loose.low);
+  EXPECT_LE(range.strict.high, range.loose.high);
+  EXPECT_LE(range.loose.low, range.loose.high);
 }
 
 // A frame of KITTI, or nothing.

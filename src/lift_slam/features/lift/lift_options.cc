@@ -16,7 +16,7 @@ void LiftExtractorOptions::Visit(OptionVisitor& visitor) {
                 "strict distance of descriptors; 0: as measured with the weights, or 2");
   visitor.Field("high_threshold", high_threshold,
                 "loose distance of descriptors; 0: as measured with the weights, or 3");
-  visitor.Field("num_threads", num_threads, "threads of one image");
+  visitor.Field("num_threads", num_threads, "threads of one image; 0: all");
 }
 
 void LiftExtractorOptions::Check() const {
@@ -26,7 +26,7 @@ void LiftExtractorOptions::Check() const {
   CheckOptionRange("lift.sigma_px", sigma_px, 0.01, 100.0);
   CheckOptionRange("lift.low_threshold", low_threshold, 0.0, 1e6);
   CheckOptionRange("lift.high_threshold", high_threshold, 0.0, 1e6);
-  CheckOptionRange("lift.num_threads", num_threads, 1, 64);
+  CheckOptionRange("lift.num_threads", num_threads, 0, 64);
 }
 
 }  // namespace lift_slam

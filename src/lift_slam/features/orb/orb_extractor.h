@@ -23,7 +23,7 @@ class OrbExtractor : public FeatureExtractor {
   FeatureSet Extract(const GrayImage& image) override;
   const ScaleLevels& scale_levels() const override { return scale_levels_; }
   const DescriptorKind& descriptor_kind() const override { return kind_; }
-  const MatchingThresholds& thresholds() const override { return thresholds_; }
+  const ThresholdRange& thresholds() const override { return thresholds_; }
 
  private:
   struct LevelFeatures {
@@ -47,7 +47,8 @@ class OrbExtractor : public FeatureExtractor {
   ScaleLevels scale_levels_;
   DescriptorKind kind_{"orb", DescriptorMetric::kHamming, OrbDescriptor::kBits};
   // ORB-SLAM's limits for 256-bit descriptors.
-  MatchingThresholds thresholds_{50.0F, 100.0F};
+  // Of 256 bits: ORB-SLAM's, and what they become when tracking is about to be lost.
+  ThresholdRange thresholds_{{50.0F, 100.0F}, {50.0F, 100.0F}, {65.0F, 115.0F}};
   ImagePyramid pyramid_;  // of the last image; its memory is used again
   std::vector<Scratch> scratch_;
 };

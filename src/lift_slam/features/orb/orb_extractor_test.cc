@@ -42,7 +42,7 @@ bool SameFeatures(const FeatureSet& a, const FeatureSet& b) {
 TEST(OrbExtractor, FeatureCountFollowsTheArea) {
   EXPECT_EQ(FeatureCount({}, 1241, 376), 2000);
   EXPECT_EQ(FeatureCount({}, 640, 480), 1317);
-  EXPECT_EQ(FeatureCount({}, 64, 48), 500);
+  EXPECT_EQ(FeatureCount({}, 64, 48), 1200);
   EXPECT_EQ(FeatureCount({}, 4000, 3000), 6000);
   EXPECT_EQ(FeatureCount({.max_features = 77}, 640, 480), 77);
 }

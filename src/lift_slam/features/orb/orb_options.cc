@@ -8,7 +8,7 @@
 namespace lift_slam {
 void OrbOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("max_features", max_features,
-                "features per image; 0: by area, 2000 for 1241 x 376, within 500 to 6000");
+                "features per image; 0: by area, 2000 for 1241 x 376, within 1200 to 6000");
   visitor.Field("num_levels", num_levels, "pyramid levels");
   visitor.Field("scale_factor", scale_factor, "size ratio of neighbouring pyramid levels");
   visitor.Field("fast_threshold", fast_threshold, "FAST contrast in grey levels");
@@ -35,7 +35,7 @@ int FeatureCount(const OrbOptions& options, int width, int height) {
   if (options.max_features > 0) return options.max_features;
   constexpr double kFeaturesPerPixel = 2000.0 / (1241.0 * 376.0);
   const double by_area = std::round(kFeaturesPerPixel * width * height);
-  return static_cast<int>(std::clamp(by_area, 500.0, 6000.0));
+  return static_cast<int>(std::clamp(by_area, 1200.0, 6000.0));
 }
 
 }  // namespace lift_slam

@@ -1,0 +1,48 @@
+#include "apps/feature_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "lift_slam/features/lift/lift_extractor.h"
+#include "lift_slam/features/orb/orb_extractor.h"
+#include "lift_slam/util/input_error.h"
+
+namespace lift_slam {
+
+void FeatureArguments::AddTo(CLI::App& command) {
+  command.add_option("--features", features, "Kind of features (default: lift with --weights)")
+      ->check(CLI::IsMember({"orb", "lift"}));
+  command.add_option("--weights", weights, "LIFT weights (.safetensors)");
+  command.add_option("--max-features", max_features, "Features an image; 0: the extractor's own")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command.add_flag("--upright", upright, "LIFT's patches are not turned");
+  command.add_option("--threads", num_threads, "Threads")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+}
+
+std::unique_ptr<FeatureExtractor> FeatureArguments::MakeExtractor() const {
+  const bool is_lift = features == "lift" || (features.empty() && !weights.empty());
+  if (is_lift && weights.empty()) throw InputError("LIFT features need --weights FILE");
+  if (!is_lift && !weights.empty())
+    throw InputError("ORB features have no weights: leave --weights out");
+  if (!is_lift) {
+    OrbOptions options;
+    options.max_features = max_features;
+    options.num_threads = num_threads;
+    return CreateOrbExtractor(options);
+  }
+  LiftExtractorOptions options;
+  if (max_features > 0) options.max_features = max_features;
+  options.upright = upright;
+  options.num_threads = num_threads;
+  return CreateLiftExtractor(ReadLiftWeights(weights), options);
+}
+
+std::string FeatureArguments::Key(const DescriptorKind& kind) const {
+  return fmt::format("{} {} {}", kind.name, max_features, upright);
+}
+
+}  // namespace lift_slam
