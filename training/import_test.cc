@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -110,15 +111,15 @@ void WriteRendered(const TemporaryFolder& folder, int shift_px) {
   std::filesystem::create_directories(folder / "r/sequences/00/depth_0");
   std::string calibration, times, poses;
   for (int i = 0; i < 4; ++i) {
-    calibration += "P" + std::to_string(i) + ": 200 0 149.5 0 0 200 99.5 0 0 0 1 0\n";
+    calibration += fmt::format("P{}: 200 0 149.5 0 0 200 99.5 0 0 0 1 0\n", i);
   }
   for (int i = 0; i < 2; ++i) {
-    const std::string file = "00000" + std::to_string(i) + ".png";
+    const std::string file = fmt::format("00000{}.png", i);
     cv::imwrite(folder / ("r/sequences/00/image_0/" + file), Discs(3, -i * shift_px));
     cv::imwrite(folder / ("r/sequences/00/depth_0/" + file),
                 cv::Mat(200, 300, CV_16UC1, cv::Scalar(10 * 256)));
-    times += std::to_string(i) + "\n";
-    poses += "1 0 0 " + std::to_string(i) + " 0 1 0 0 0 0 1 0\n";
+    times += fmt::format("{}\n", i);
+    poses += fmt::format("1 0 0 {} 0 1 0 0 0 0 1 0\n", i);
   }
   folder.Write("r/sequences/00/calib.txt", calibration);
   folder.Write("r/sequences/00/times.txt", times);

@@ -19,7 +19,7 @@ struct PhotographOptions {
   // Every tenth image (by a hash of its name) is for validation, the others for training.
   Part part = Part::kAll;
   // Images whose source contains one of these words, separated by blanks; empty: all.
-  std::string sources;
+  std::string sources = {};
   int max_side_px = 1280;      // larger images are made smaller, averaging
   double min_sigma = 1.2;      // of keypoints
   int max_points = 1500;       // of an image, the strongest

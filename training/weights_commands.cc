@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "lift_slam/features/lift/lift_networks.h"
+#include "lift_slam/nn/half_float.h"
 #include "lift_slam/util/input_error.h"
 #include "training/distance_statistics.h"
 #include "training/lift_modules.h"
@@ -36,6 +37,14 @@ void CheckInput(const std::filesystem::path& path, const InputNormalization& inp
   }
 }
 
+// Two of the 2.3 million parameters are in one layer: 16 bits each halve the file.
+void RoundOrientation(LiftWeights& weights) {
+  for (const LiftParameter& parameter : Parameters(weights)) {
+    if (parameter.name != "orientation.fc1.weight") continue;
+    for (float& value : parameter.values) value = nn::FromHalf(nn::ToHalf(value));
+  }
+}
+
 void Assemble(const AssembleArguments& arguments) {
   LiftWeights weights = ReadLiftWeights(arguments.descriptor);
   LiftWeights orientation = ReadLiftWeights(arguments.orientation);
@@ -53,6 +62,8 @@ void Assemble(const AssembleArguments& arguments) {
   weights.provenance = "descriptor: " + weights.provenance +
                        "\norientation: " + orientation.provenance +
                        "\ndetector: " + detector.provenance;
+  weights.distances.reset();
+  RoundOrientation(weights);
   WriteLiftWeights(weights, arguments.output);
   std::cout << fmt::format("{}: SHA-256 {}\n", arguments.output.string(), weights.sha256);
 }
