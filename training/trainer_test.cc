@@ -46,6 +46,8 @@ TrainingOptions TinyRun(const TemporaryFolder& folder, const std::string& stage,
   TrainingOptions options;
   options.stage = stage;
   options.data = options.validation = (folder / "set").string();
+  options.run.threads =
+      1;  // steps so small gain nothing by more, and wait for them when others work
   options.run.validation_every = 2;
   options.run.validation_batches = 1;
   for (ScheduleOptions* schedule :
@@ -55,8 +57,8 @@ TrainingOptions TinyRun(const TemporaryFolder& folder, const std::string& stage,
   return options;
 }
 
-RunState Run(const TrainingOptions& options, const std::filesystem::path& output, bool resume,
-             int steps = 1000) {
+RunState TrainOn(const TrainingOptions& options, const std::filesystem::path& output, bool resume,
+                 int steps = 1000) {
   Trainer trainer(options, output, resume, "test");
   trainer.Run([&](const TrainingProgress&) { return --steps > 0; });
   return trainer.state();
@@ -69,7 +71,7 @@ TEST(Trainer, TrainsAllThreeNetworksAndTheirWeightsExtractFeatures) {
   for (const char* stage : {"descriptor", "orientation", "detector"}) {
     TrainingOptions options = TinyRun(folder, stage, 4);
     options.from = from;
-    EXPECT_EQ(Run(options, folder / stage, false).step, 4);
+    EXPECT_EQ(TrainOn(options, folder / stage, false).step, 4);
     from = (folder / (std::string(stage) + "/best.safetensors")).string();
     EXPECT_TRUE(std::filesystem::exists(folder / (std::string(stage) + "/curves.html")));
   }
@@ -84,26 +86,25 @@ TEST(Trainer, TheOtherLossesTrainToo) {
   MakeSet(folder);
   TrainingOptions pairs = TinyRun(folder, "descriptor", 2);
   pairs.descriptor.loss = DescriptorLoss::kPairs;
-  EXPECT_EQ(Run(pairs, folder / "pairs", false).skipped, 0);
+  EXPECT_EQ(TrainOn(pairs, folder / "pairs", false).skipped, 0);
   TrainingOptions triplets = TinyRun(folder, "descriptor", 2);
   triplets.descriptor.loss = DescriptorLoss::kTriplet;
-  EXPECT_EQ(Run(triplets, folder / "triplets", false).skipped, 0);
+  EXPECT_EQ(TrainOn(triplets, folder / "triplets", false).skipped, 0);
   TrainingOptions equation2 = TinyRun(folder, "orientation", 2);
   equation2.orientation.loss = OrientationLoss::kDescriptor;
-  EXPECT_EQ(Run(equation2, folder / "equation2", false).skipped, 0);
+  EXPECT_EQ(TrainOn(equation2, folder / "equation2", false).skipped, 0);
   TrainingOptions equation5 = TinyRun(folder, "detector", 2);
   equation5.detector.pair_steps = 1;
-  EXPECT_EQ(Run(equation5, folder / "equation5", false).skipped, 0);
+  EXPECT_EQ(TrainOn(equation5, folder / "equation5", false).skipped, 0);
 }
 
 TEST(Trainer, GoesOnFromItsCheckpointAsIfNeverStopped) {
   const TemporaryFolder folder;
   MakeSet(folder);
   TrainingOptions options = TinyRun(folder, "detector", 4);
-  options.run.threads = 1;
-  Run(options, folder / "whole", false);
-  EXPECT_EQ(Run(options, folder / "parts", false, 2).step, 2);
-  EXPECT_EQ(Run(options, folder / "parts", true).step, 4);
+  TrainOn(options, folder / "whole", false);
+  EXPECT_EQ(TrainOn(options, folder / "parts", false, 2).step, 2);
+  EXPECT_EQ(TrainOn(options, folder / "parts", true).step, 4);
   LiftWeights whole = ReadLiftWeights(folder / "whole/latest.safetensors");
   LiftWeights parts = ReadLiftWeights(folder / "parts/latest.safetensors");
   const auto expected = Parameters(whole), got = Parameters(parts);
@@ -119,6 +120,7 @@ TEST(Trainer, LearnsToTellPointsApart) {
   MakeSet(folder);
   TrainingOptions options = TinyRun(folder, "descriptor", 20);
   options.descriptor.schedule.batch = 16;
+  options.run.validation_every = 10;
   options.views = {.max_tilt = 1.1, .position_noise_sigmas = 0.05, .rotation_noise_deg = 1.0};
   Trainer trainer(options, folder / "run", false, "test");
   double first = 0.0, last = 0.0;
@@ -150,7 +152,7 @@ TEST(Trainer, RefusesWhatCannotBe) {
   TrainingOptions unknown = options;
   unknown.stage = "colour";
   refuses(unknown, false, "is unknown");
-  Run(options, folder / "run", false);
+  TrainOn(options, folder / "run", false);
   refuses(options, false, "--resume");
 }
 

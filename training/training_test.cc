@@ -86,7 +86,7 @@ TEST(LiftModules, StoreWhatTheyLoaded) {
 // Compares the gradient of a scalar with central differences, in double precision.
 void ExpectGradientRight(const std::function<Tensor(const Tensor&)>& function, Tensor input) {
   constexpr double kStep = 1e-5;
-  input = input.to(torch::kFloat64).requires_grad_(true);
+  input = input.detach().to(torch::kFloat64).clone().requires_grad_(true);  // own gradient
   function(input).backward();
   const Tensor gradient = input.grad().flatten();
   const Tensor values = input.detach().clone();
