@@ -101,8 +101,8 @@ int Main(int argc, char** argv) {
   app.add_option("--precisions", arguments.precisions, "float32, bfloat16, int8")
       ->check(CLI::IsMember({"float32", "bfloat16", "int8"}));
   app.add_option("--tables", arguments.tables, "Which tables")
-      ->check(CLI::IsMember(
-          {"precision", "descriptors", "matching", "repeatability", "orientation", "keypoints"}));
+      ->check(CLI::IsMember({"precision", "descriptors", "matching", "repeatability", "orientation",
+                             "homography", "keypoints"}));
   app.add_option("--pair", arguments.extra, "Two more images of one scene; may be repeated")
       ->type_size(2);
   app.add_option("--pairs", arguments.num_pairs, "Image pairs of each kind")
