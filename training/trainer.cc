@@ -14,6 +14,7 @@
 #include "lift_slam/util/option_root.h"
 #include "lift_slam/util/system_info.h"
 #include "training/batch_producer.h"
+#include "training/first_weights.h"
 #include "training/lift_modules.h"
 #include "training/training_log.h"
 
@@ -35,6 +36,10 @@ Stage StageNamed(const std::string& name) {
 LiftWeights BeginningWeights(const TrainingOptions& options) {
   LiftWeights random =
       RandomLiftWeights(LiftTopology::kF, static_cast<std::uint64_t>(options.run.seed));
+  if (options.run.designed_start) {
+    BeginWithBlobs(random);
+    BeginWithGradients(random);
+  }
   if (options.from.empty()) return random;
   LiftWeights weights = ReadLiftWeights(options.from);
   const InputNormalization expected;

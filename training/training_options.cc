@@ -69,6 +69,8 @@ void DetectorOptions::Check() const {
 void RunOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("seed", seed, "of everything random");
   visitor.Field("threads", threads, "0: as many as the machine has");
+  visitor.Field("designed_start", designed_start,
+                "detector and orientation begin with blobs and gradients, not with noise");
   visitor.Field("bfloat16", bfloat16, "for convolutions, where the CPU has it");
   visitor.Field("checkpoint_minutes", checkpoint_minutes, "between checkpoints");
   visitor.Field("validation_every", validation_every, "steps");

@@ -74,8 +74,9 @@ struct DetectorOptions {
 
 struct RunOptions {
   int seed = 1;
-  int threads = 0;       // 0: as many as the machine has
-  bool bfloat16 = true;  // descriptor's convolutions in bfloat16 where the CPU has it
+  int threads = 0;             // 0: as many as the machine has
+  bool designed_start = true;  // detector and orientation do not begin with noise alone
+  bool bfloat16 = true;        // descriptor's convolutions in bfloat16 where the CPU has it
   double checkpoint_minutes = 3.0;
   int validation_every = 500;  // steps
   int validation_batches = 16;
