@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <string_view>
 
 #include "lift_slam/util/check.h"
@@ -22,6 +23,16 @@ std::span<float> Values(LiftWeights& weights, std::string_view name) {
 
 void Weaken(std::span<float> values) {
   for (float& value : values) value *= kNoise;
+}
+
+// Random filters of images: they must not answer to plain brightness, which says nothing.
+void WeakenFilters(std::span<float> filters, std::size_t pixels) {
+  Weaken(filters);
+  for (std::size_t begin = 0; begin < filters.size(); begin += pixels) {
+    const std::span<float> filter = filters.subspan(begin, pixels);
+    const float sum = std::accumulate(filter.begin(), filter.end(), 0.0F);
+    for (float& value : filter) value -= sum / static_cast<float>(pixels);
+  }
 }
 
 // Adds f(x, y), from the middle of a square filter.
@@ -59,7 +70,7 @@ void BeginWithBlobs(LiftWeights& weights) {
   constexpr double kGain = 16.0;          // a blob of 30 grey values scores 1
   constexpr double kEdge = 1.3;           // weight of the curvatures' difference
   const std::span<float> filters = Values(weights, "detector.conv1.weight");
-  Weaken(filters);
+  WeakenFilters(filters, kPixels);
   for (int i = 0; i < 4; ++i) {
     const double sign = i % 2 == 0 ? kGain : -kGain;
     const double sigma = i < 2 ? kSigma : 1.26 * kSigma;
@@ -79,10 +90,11 @@ void BeginWithGradients(LiftWeights& weights) {
   constexpr int kDirections = 8;
   constexpr int kSide = 5;  // of the last maps
   LIFT_SLAM_CHECK(weights.orientation.has_value(), "no orientation network");
-  for (const char* layer : {"conv1", "conv2", "conv3", "fc1", "fc2"}) {
+  for (const char* layer : {"conv2", "conv3", "fc1", "fc2"}) {
     Weaken(Values(weights, std::string("orientation.") + layer + ".weight"));
   }
   const std::span<float> first = Values(weights, "orientation.conv1.weight");
+  WeakenFilters(first, 25);
   const std::span<float> second = Values(weights, "orientation.conv2.weight");
   const std::span<float> third = Values(weights, "orientation.conv3.weight");
   const std::span<float> sums = Values(weights, "orientation.fc1.weight");

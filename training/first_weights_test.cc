@@ -54,7 +54,7 @@ TEST(FirstWeights, BlobsScoreHighAndEdgesLow) {
 }
 
 // Waves that fade away from a point beside the middle, the whole turned by an angle.
-std::vector<std::uint8_t> TurnedPatch(double angle, double phase) {
+std::vector<std::uint8_t> TurnedPatch(double angle, double phase, double gamma = 1.0) {
   std::vector<std::uint8_t> patch;
   const double c = std::cos(angle), s = std::sin(angle);
   for (int row = 0; row < 64; ++row) {
@@ -62,10 +62,21 @@ std::vector<std::uint8_t> TurnedPatch(double angle, double phase) {
       const double x = column - 31.5, y = row - 31.5;
       const double u = c * x + s * y, v = c * y - s * x;
       const double wave = std::sin(0.22 * u + phase) + 0.5 * std::sin(0.3 * v + 2.0 * phase);
-      patch.push_back(static_cast<std::uint8_t>(128.0 + 2.0 * u + 35.0 * wave));
+      const double grey = std::clamp(128.0 + 2.0 * u + 35.0 * wave, 0.0, 255.0);
+      patch.push_back(static_cast<std::uint8_t>(255.0 * std::pow(grey / 255.0, gamma)));
     }
   }
   return patch;
+}
+
+TEST(FirstWeights, GammaHardlyTurnsTheAngle) {
+  LiftWeights weights = RandomLiftWeights(LiftTopology::kF, 3);
+  BeginWithGradients(weights);
+  LiftNetworks networks(weights, {});
+  const float plain = networks.OrientPatches(TurnedPatch(1.0, 0.3))[0];
+  for (const double gamma : {0.25, 4.0}) {
+    EXPECT_NEAR(networks.OrientPatches(TurnedPatch(1.0, 0.3, gamma))[0], plain, 0.35) << gamma;
+  }
 }
 
 TEST(FirstWeights, AnglesTurnWithThePatch) {
