@@ -39,6 +39,7 @@ LiftWeights BeginningWeights(const TrainingOptions& options) {
   if (options.run.designed_start) {
     BeginWithBlobs(random);
     BeginWithGradients(random);
+    random.provenance += ", the detector with blobs, the orientation with gradients";
   }
   if (options.from.empty()) return random;
   LiftWeights weights = ReadLiftWeights(options.from);

@@ -28,6 +28,7 @@ struct CalibrateArguments {
   std::filesystem::path weights, output;
   std::vector<std::string> data;
   int batches = 64;
+  double nearest_wrong = 0.0;
 };
 
 void CheckInput(const std::filesystem::path& path, const InputNormalization& input) {
@@ -99,6 +100,18 @@ DistanceQuantiles MeasureDistances(LiftWeights& weights, const std::vector<Weigh
   return statistics.Quantiles();
 }
 
+// Makes all distances `factor` times as large: after the last convolution come only a ReLU and
+// means, and one factor for all of them tells points apart as before.
+void ScaleDescriptors(LiftWeights& weights, double factor) {
+  for (const LiftParameter& parameter : Parameters(weights)) {
+    if (!parameter.name.starts_with("descriptor.conv3.")) continue;
+    for (float& value : parameter.values) value *= static_cast<float>(factor);
+  }
+  for (auto* quantiles : {&weights.distances->matching, &weights.distances->nearest_wrong}) {
+    for (float& distance : *quantiles) distance *= static_cast<float>(factor);
+  }
+}
+
 void Calibrate(const CalibrateArguments& arguments) {
   LiftWeights weights = ReadLiftWeights(arguments.weights);
   CheckInput(arguments.weights, weights.descriptor_input);
@@ -108,6 +121,9 @@ void Calibrate(const CalibrateArguments& arguments) {
   }
   const auto sets = OpenTrainingSets(fmt::format("{}", fmt::join(arguments.data, " ")));
   weights.distances = MeasureDistances(weights, sets, arguments.batches);
+  if (arguments.nearest_wrong > 0.0) {
+    ScaleDescriptors(weights, arguments.nearest_wrong / weights.distances->nearest_wrong[2]);
+  }
   constexpr int kRangePatches = 256;
   const PatchBatch batch = PatchSampler(sets, {.count = kRangePatches}, {}, {}, 1).Draw(0);
   weights.descriptor_ranges = MeasureDescriptorRanges(weights, batch.first);
@@ -140,6 +156,12 @@ void AddWeightsCommands(CLI::App& app) {
   calibrate->add_option("--data", arguments->data, "Sets that were not trained on")->required();
   calibrate->add_option("--batches", arguments->batches, "Of 128 points")
       ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  calibrate
+      ->add_option("--nearest-wrong", arguments->nearest_wrong,
+                   "Scale the descriptors so that this is the median distance of the nearest wrong "
+                   "one; 0: leave them")
+      ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   calibrate->add_option("--output", arguments->output, "Another file (default: WEIGHTS)");
   calibrate->callback([arguments] { Calibrate(*arguments); });
