@@ -13,6 +13,7 @@
 #include "apps/output_folder.h"
 #include "apps/pair_features.h"
 #include "apps/patch_extraction.h"
+#include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
@@ -81,10 +82,10 @@ void ExtractImage(const std::filesystem::path& path, const std::filesystem::path
 
 void ExtractImages(const ExtractArguments& arguments) {
   CheckNames(arguments.images);
-  const LiftWeights weights = ReadLiftWeights(arguments.weights);
+  const LiftWeights weights = ReadLiftWeightsOrDefault(arguments.weights);
   if (!weights.orientation && !arguments.options.upright) {
-    throw InputError(fmt::format("the weights '{}' have no orientation network; say --upright",
-                                 arguments.weights.string()));
+    throw InputError(
+        fmt::format("the weights '{}' have no orientation network; say --upright", weights.name));
   }
   LiftExtractor extractor(weights, arguments.options);
   if (!extractor.precision().reason.empty()) {
@@ -135,7 +136,8 @@ void AddExtractCommand(CLI::App& app) {
   LiftExtractorOptions& options = arguments->options;
   options.num_threads = 2;
   command->add_option("IMAGES", arguments->images, "Images");
-  command->add_option("--weights", arguments->weights, "LIFT weights (.safetensors)")->required();
+  command->add_option("--weights", arguments->weights,
+                      "LIFT weights (.safetensors; default: those that ship)");
   command
       ->add_option("--output", arguments->output,
                    "Folder for NAME.npz (positions, sigmas, angles_rad, responses, levels, "

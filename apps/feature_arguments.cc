@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/features/orb/orb_extractor.h"
 #include "lift_slam/util/input_error.h"
@@ -13,7 +14,7 @@ namespace lift_slam {
 void FeatureArguments::AddTo(CLI::App& command) {
   command.add_option("--features", features, "Kind of features (default: lift with --weights)")
       ->check(CLI::IsMember({"orb", "lift"}));
-  command.add_option("--weights", weights, "LIFT weights (.safetensors)");
+  command.add_option("--weights", weights, "LIFT weights (.safetensors; default: those that ship)");
   command.add_option("--max-features", max_features, "Features an image; 0: the extractor's own")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
@@ -25,7 +26,6 @@ void FeatureArguments::AddTo(CLI::App& command) {
 
 std::unique_ptr<FeatureExtractor> FeatureArguments::MakeExtractor() const {
   const bool is_lift = features == "lift" || (features.empty() && !weights.empty());
-  if (is_lift && weights.empty()) throw InputError("LIFT features need --weights FILE");
   if (!is_lift && !weights.empty())
     throw InputError("ORB features have no weights: leave --weights out");
   if (!is_lift) {
@@ -38,7 +38,7 @@ std::unique_ptr<FeatureExtractor> FeatureArguments::MakeExtractor() const {
   if (max_features > 0) options.max_features = max_features;
   options.upright = upright;
   options.num_threads = num_threads;
-  return CreateLiftExtractor(ReadLiftWeights(weights), options);
+  return CreateLiftExtractor(ReadLiftWeightsOrDefault(weights), options);
 }
 
 std::string FeatureArguments::Key(const DescriptorKind& kind) const {

@@ -15,7 +15,7 @@ namespace lift_slam {
 // The arguments that choose an extractor of features.
 struct FeatureArguments {
   std::string features;           // "orb" or "lift"; empty: lift when weights are given, else orb
-  std::filesystem::path weights;  // of LIFT
+  std::filesystem::path weights;  // of LIFT; empty: those that ship
   int max_features = 0;           // an image; 0: the extractor's default
   bool upright = false;           // LIFT's patches are not turned
   int num_threads = 2;

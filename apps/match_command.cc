@@ -174,7 +174,8 @@ void AddFeatureOptions(CLI::App& command, MatchArguments& arguments) {
   LiftExtractorOptions& lift = arguments.features.lift;
   command.add_option("--features", arguments.features.name, "lift, orb or sift")
       ->capture_default_str();
-  command.add_option("--weights", arguments.features.weights, "LIFT weights (.safetensors)");
+  command.add_option("--weights", arguments.features.weights,
+                     "LIFT weights (.safetensors; default: those that ship)");
   command.add_flag("--upright", lift.upright, "LIFT's patches are not turned");
   command.add_option("--max-features", lift.max_features, "Features an image")
       ->capture_default_str();

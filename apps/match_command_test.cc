@@ -120,7 +120,7 @@ TEST_F(MatchCommand, BadInputIsOneSentence) {
   for (const auto& [arguments, part] : std::vector<std::pair<std::string, std::string>>{
            {Path("a.png") + " " + Path("none.png") + " --features orb" + output, "none.png"},
            {Images() + "--features surf" + output, "'surf' is unknown"},
-           {Images() + "--features lift" + output, "needs --weights"},
+           {Images() + "--features lift --weights none" + output, "none"},
            {Images() + lift, "--upright"},
            {Path("a.png") + " " + Path("tiny.png") + " --upright " + lift, "tiny.png"},
            {Images() + "--features orb --weights " + Path("w.safetensors") + output, "not orb"},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/features/orb/orb_extractor.h"
 #include "lift_slam/features/sift/sift_extractor.h"
@@ -11,13 +12,10 @@ namespace lift_slam {
 namespace {
 
 NamedExtractor MakeLift(const PairFeatures& features) {
-  if (features.weights.empty()) {
-    throw InputError("--features lift needs --weights FILE (.safetensors)");
-  }
-  const LiftWeights weights = ReadLiftWeights(features.weights);
+  const LiftWeights weights = ReadLiftWeightsOrDefault(features.weights);
   if (!weights.orientation && !features.lift.upright) {
-    throw InputError(fmt::format("the weights '{}' have no orientation network; say --upright",
-                                 features.weights.string()));
+    throw InputError(
+        fmt::format("the weights '{}' have no orientation network; say --upright", weights.name));
   }
   auto extractor = std::make_unique<LiftExtractor>(weights, features.lift);
   std::string title =

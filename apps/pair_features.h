@@ -12,7 +12,7 @@ namespace lift_slam {
 // Which features a command on single images uses.
 struct PairFeatures {
   std::string name = "lift";      // lift, orb or sift
-  std::filesystem::path weights;  // of LIFT
+  std::filesystem::path weights;  // of LIFT; empty: those that ship
   LiftExtractorOptions lift;      // max_features and num_threads hold for the others too
 };
 
@@ -21,7 +21,7 @@ struct NamedExtractor {
   std::string title;  // "LIFT, bfloat16", for captions
 };
 
-// Throws InputError for an unknown name, LIFT without weights or others with them.
+// Throws InputError for an unknown name, and for other features with weights.
 NamedExtractor MakeExtractor(const PairFeatures& features);
 
 // Throws InputError naming the file when it cannot be read.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/npz_file.h"
+#include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/features/lift/lift_networks.h"
 #include "lift_slam/features/lift/lift_weights_topology.h"
 #include "lift_slam/util/file.h"
@@ -62,10 +63,10 @@ void ExtractPatches(const PatchExtraction& wanted) {
   if (wanted.output.extension() != ".npy") {
     throw InputError("extract --patches writes one file: --output must end in .npy");
   }
-  const LiftWeights weights = ReadLiftWeights(wanted.weights);
+  const LiftWeights weights = ReadLiftWeightsOrDefault(wanted.weights);
   if (wanted.orientation && !weights.orientation) {
     throw InputError(fmt::format("the weights '{}' have no orientation network for --orientation",
-                                 wanted.weights.string()));
+                                 weights.name));
   }
   const std::vector<std::uint8_t> patches = ReadPatches(wanted);
   const std::size_t count = patches.size() / kPatchPixels;

@@ -143,7 +143,9 @@ void AddRunCommand(CLI::App& app) {
   arguments->sequence.AddTo(*command);
   command->add_option("--output", arguments->output, "Folder for all results")->required();
   command->add_option("--features", arguments->features, "Kind of features: orb (default) or lift");
-  command->add_option("--weights", arguments->weights, "LIFT weights (.safetensors)")
+  command
+      ->add_option("--weights", arguments->weights,
+                   "LIFT weights (.safetensors; default: those that ship)")
       ->type_name("FILE");
   command
       ->add_option("--vocabulary", arguments->vocabulary,
@@ -158,8 +160,7 @@ void AddRunCommand(CLI::App& app) {
       "  lift_slam run drive.mp4 --camera camera.yaml --output runs/drive --frames 0:500:2\n"
       "  lift_slam run images/ --camera camera.yaml --output runs/x --set "
       "slam.orb.max_features=3000\n"
-      "  lift_slam run kitti/sequences/00 --features lift --weights lift.safetensors --output "
-      "runs/l\n"
+      "  lift_slam run kitti/sequences/00 --features lift --output runs/l\n"
       "Exit codes: 0 done, 1 bad input, 3 ran but found no usable trajectory (all files written).");
   command->callback([arguments] { Run(*arguments); });
 }

@@ -73,8 +73,9 @@ TEST_F(RunCommand, ImagesOfAnotherSizeAreSkippedAndCounted) {
 
 TEST_F(RunCommand, LiftFeaturesNeedGoodWeights) {
   const fs::path sequence = Render(kKitti, 3);
-  ExpectOneSentence(Run(sequence, "--features lift"),
-                    {"LIFT features need their weights", "--weights"});
+  setenv("LIFT_SLAM_WEIGHTS", "gone.safetensors", /*overwrite=*/1);
+  ExpectOneSentence(Run(sequence, "--features lift"), {"gone.safetensors", "--weights"});
+  unsetenv("LIFT_SLAM_WEIGHTS");
   ExpectOneSentence(Run(sequence, "--features lift --weights nowhere.safetensors"),
                     {"nowhere.safetensors"});
   WriteTextAtomically(folder_ / "text.safetensors", "not at all");

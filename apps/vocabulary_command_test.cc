@@ -122,7 +122,7 @@ TEST_F(VocabularyCommandTest, BadInputIsOneSentence) {
            {"vocabulary query " + vocabulary + " --query /nonexistent", "no such file or folder"},
            {"vocabulary build " + image + output + " --max-features 20", "too few descriptors"},
            {"vocabulary build " + vocabulary + output, "is no image"},
-           {"vocabulary build " + image + output + " --features lift", "need --weights"},
+           {"vocabulary build " + image + output + " --features lift --weights none", "none"},
            {"vocabulary build " + image + output + " --branching 1", "branching"},
            {"vocabulary build " + image, "--output"},
        }) {

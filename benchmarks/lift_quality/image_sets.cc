@@ -45,7 +45,8 @@ const GrayImage& ReadOnce(const std::filesystem::path& path, ImageCache& images)
 ImageSet Pairs(const std::string& name, const std::filesystem::path& images,
                const std::filesystem::path& camera, int count, int skip, double gamma,
                ImageCache& cache) {
-  ImageSet set{name, ReadCameraFile(camera), gamma, {}};
+  Camera calibration = ReadCameraFile(camera);
+  ImageSet set{name, {}, gamma, {}};
   const std::vector<std::filesystem::path> files = FilesIn(images);
   const int last = static_cast<int>(files.size()) - 1 - std::max(skip, 10);
   if (last < count) throw InputError(fmt::format("{}: too few images", images.string()));
@@ -54,8 +55,9 @@ ImageSet Pairs(const std::string& name, const std::filesystem::path& images,
     set.pairs.emplace_back(ReadOnce(files[at], cache),
                            ReadOnce(files[at + static_cast<std::size_t>(skip)], cache));
   }
-  set.camera.pinhole.width = set.pairs.front().first.width();
-  set.camera.pinhole.height = set.pairs.front().first.height();
+  calibration.pinhole.width = set.pairs.front().first.width();
+  calibration.pinhole.height = set.pairs.front().first.height();
+  set.camera = calibration;
   return set;
 }
 
@@ -76,6 +78,11 @@ ImageSet KitchenPairs(const std::filesystem::path& data, int count, int skip, Im
 }
 
 }  // namespace
+
+ImageSet SinglePair(const std::filesystem::path& a, const std::filesystem::path& b) {
+  return {
+      fmt::format("{}, {}", a.stem().string(), b.stem().string()), {}, 1.0, {{Read(a), Read(b)}}};
+}
 
 std::vector<ImageSet> RealImageSets(const std::filesystem::path& data, int count) {
   ImageCache cache;

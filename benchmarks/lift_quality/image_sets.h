@@ -10,12 +10,12 @@
 
 namespace lift_slam {
 
-// Pairs of photographs of one kind; both by the same camera. An image that several sets hold has
-// the same pixels in memory.
+// Pairs of photographs of one kind; both by the same camera, if it is known. An image that several
+// sets hold has the same pixels in memory.
 struct ImageSet {
   std::string name;
-  Camera camera;
-  double gamma = 1.0;  // for the second images, when they are used; stored without
+  std::optional<Camera> camera;  // none: pairs fulfil a fundamental matrix
+  double gamma = 1.0;            // for the second images, when they are used; stored without
   std::vector<std::pair<GrayImage, GrayImage>> pairs;
 };
 
@@ -23,5 +23,8 @@ struct ImageSet {
 // gamma 0.25, 0.5, 2 and 4; RedKitchen 10 frames apart. Those without data are left out, with a
 // word on standard error.
 std::vector<ImageSet> RealImageSets(const std::filesystem::path& data, int count);
+
+// Two images of one scene, of unknown calibration; named after the files.
+ImageSet SinglePair(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace lift_slam

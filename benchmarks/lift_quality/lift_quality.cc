@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "benchmarks/lift_quality/homography_table.h"
+#include "benchmarks/lift_quality/orientation_table.h"
 #include "benchmarks/lift_quality/quality_tables.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
@@ -17,8 +19,9 @@ struct Arguments {
   std::vector<std::filesystem::path> weights;
   std::filesystem::path data, patches;
   std::vector<std::string> precisions{"float32"};
-  std::vector<std::string> tables{"precision", "descriptors", "matching", "repeatability",
-                                  "keypoints"};
+  std::vector<std::string> tables{"precision",   "descriptors", "matching", "repeatability",
+                                  "orientation", "homography",  "keypoints"};
+  std::vector<std::vector<std::filesystem::path>> extra;  // two images each
   int num_pairs = 20;
   QualityOptions quality;
 
@@ -46,6 +49,12 @@ void PrintPrecision(const Arguments& arguments, std::span<const NamedWeights> al
   Print("Precision on given patches", PrecisionTable(all, patches, arguments.quality));
 }
 
+// One set of each kind of images.
+std::vector<ImageSet> Ends(const std::vector<ImageSet>& sets) {
+  if (sets.size() < 2) return sets;
+  return {sets.front(), sets.back()};
+}
+
 void Run(Arguments arguments) {
   arguments.quality.precisions.clear();
   for (const std::string& name : arguments.precisions) {
@@ -53,20 +62,27 @@ void Run(Arguments arguments) {
   }
   const std::vector<NamedWeights> all = ReadAll(arguments.weights);
   if (arguments.Wants("precision") && !arguments.patches.empty()) PrintPrecision(arguments, all);
-  const std::vector<ImageSet> sets = RealImageSets(arguments.data, arguments.num_pairs);
+  std::vector<ImageSet> sets = RealImageSets(arguments.data, arguments.num_pairs);
+  const std::vector<ImageSet> ends = Ends(sets);
+  for (const auto& pair : arguments.extra) sets.push_back(SinglePair(pair[0], pair[1]));
   if (arguments.Wants("descriptors")) {
     Print("Descriptors on SIFT's keypoints", DescriptorTable(all, sets, arguments.quality));
   }
   if (arguments.Wants("matching")) {
     Print("Matching", MatchingTable(all, sets, arguments.quality));
   }
-  if (sets.empty()) return;
-  const ImageSet ends[] = {sets.front(), sets.back()};
+  if (ends.empty()) return;
   if (arguments.Wants("repeatability")) {
     Print("Repeatability", RepeatabilityTable(all, ends));
   }
-  if (arguments.Wants("keypoints") && sets.size() > 1) {
-    const ImageSet few[] = {sets[0], sets[1], sets.back()};
+  if (arguments.Wants("orientation")) {
+    Print("Orientation", OrientationTable(all, ends));
+  }
+  if (arguments.Wants("homography")) {
+    Print("Known homographies", HomographyTables(all, ends, arguments.quality));
+  }
+  if (arguments.Wants("keypoints") && ends.size() > 1) {
+    const ImageSet few[] = {sets[0], sets[1], ends.back()};
     for (const NamedWeights& weights : all) {
       Print(("Choice of keypoints, " + weights.name).c_str(),
             KeypointChoiceTable(weights, few, arguments.quality));
@@ -85,8 +101,10 @@ int Main(int argc, char** argv) {
   app.add_option("--precisions", arguments.precisions, "float32, bfloat16, int8")
       ->check(CLI::IsMember({"float32", "bfloat16", "int8"}));
   app.add_option("--tables", arguments.tables, "Which tables")
-      ->check(
-          CLI::IsMember({"precision", "descriptors", "matching", "repeatability", "keypoints"}));
+      ->check(CLI::IsMember({"precision", "descriptors", "matching", "repeatability", "orientation",
+                             "homography", "keypoints"}));
+  app.add_option("--pair", arguments.extra, "Two more images of one scene; may be repeated")
+      ->type_size(2);
   app.add_option("--pairs", arguments.num_pairs, "Image pairs of each kind")
       ->check(CLI::Range(1, 100));
   app.add_option("--max-features", arguments.quality.max_features, "Features an image");

@@ -1,14 +1,13 @@
 #include "benchmarks/lift_quality/quality_tables.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
 
+#include "benchmarks/lift_quality/extractor_variants.h"
+#include "benchmarks/lift_quality/markdown_table.h"
 #include "lift_slam/features/image_pair.h"
 #include "lift_slam/features/lift/keypoint_detection.h"
 #include "lift_slam/features/lift/lift_extractor.h"
@@ -20,70 +19,6 @@
 
 namespace lift_slam {
 namespace {
-
-std::string Row(const std::vector<std::string>& cells) {
-  return fmt::format("| {} |\n", fmt::join(cells, " | "));
-}
-
-// Also on standard error: a table takes minutes.
-std::string RowShown(const std::vector<std::string>& cells) {
-  std::string row = Row(cells);
-  fmt::print(stderr, "{}", row);
-  return row;
-}
-
-std::string Header(const std::vector<std::string>& names) {
-  std::vector<std::string> rule(names.size(), "---:");
-  rule.front() = "---";
-  return Row(names) + Row(rule);
-}
-
-std::string Header(const std::string& first, std::span<const ImageSet> sets) {
-  std::vector<std::string> names{first};
-  for (const ImageSet& set : sets) names.push_back(set.name);
-  return Header(names);
-}
-
-// One row of a table: weights in a precision, upright or turned.
-struct Variant {
-  const LiftWeights* weights;
-  nn::Precision precision;
-  bool upright;
-  std::string name;
-};
-
-std::vector<Variant> Variants(std::span<const NamedWeights> all, const QualityOptions& options) {
-  std::vector<Variant> variants;
-  for (const auto& [name, weights] : all) {
-    for (const bool upright : {true, false}) {
-      if (!upright && !weights.orientation) continue;
-      for (const nn::Precision precision : options.precisions) {
-        const LiftNetworks networks(weights, {.precision = precision});
-        if (networks.precision().used != precision) continue;  // the CPU or the file cannot
-        variants.push_back(
-            {&weights, precision, upright,
-             fmt::format("{} {}{}", name, upright ? "upright " : "", nn::Name(precision))});
-      }
-    }
-  }
-  return variants;
-}
-
-using MakeExtractor = std::function<std::unique_ptr<FeatureExtractor>()>;
-
-MakeExtractor Baseline(const std::string& name, const QualityOptions& options) {
-  if (name == "SIFT") {
-    return [=] {
-      return std::make_unique<SiftExtractor>(SiftOptions{.max_features = options.max_features});
-    };
-  }
-  return [=] {
-    OrbOptions orb;
-    orb.max_features = options.max_features;
-    orb.num_threads = options.num_threads;
-    return CreateOrbExtractor(orb);
-  };
-}
 
 // Extracts each image once: sets share their first images.
 class FeatureCache {
@@ -105,7 +40,8 @@ std::string MeanInliers(const ImageSet& set, FeatureExtractor& extractor, Featur
   double all = 0.0, best = 0.0;
   for (const auto& [a, b] : set.pairs) {
     const ImagePairResult result =
-        MatchImagePair(cache.Of(a), extractor.Extract(ApplyGamma(b, set.gamma)), &set.camera, {});
+        MatchImagePair(cache.Of(a), extractor.Extract(ApplyGamma(b, set.gamma)),
+                       set.camera ? &*set.camera : nullptr, {});
     all += result.num_inliers;
     const std::size_t count = std::min<std::size_t>(100, result.matches.size());
     best += static_cast<double>(
@@ -141,7 +77,8 @@ std::vector<KeypointPairs> PairsOf(const ImageSet& set, FoundPairs& found) {
   for (const auto& [a, b] : set.pairs) {
     const auto key = std::pair(a.row(0), b.row(0));
     const auto [entry, is_new] = found.try_emplace(key);
-    if (is_new) entry->second = PairsBySift(a, b, &set.camera, kPairsPerImage);
+    if (is_new)
+      entry->second = PairsBySift(a, b, set.camera ? &*set.camera : nullptr, kPairsPerImage);
     pairs.push_back(entry->second);
     pairs.back().image_b = ApplyGamma(b, set.gamma);
   }
@@ -250,18 +187,7 @@ std::string DescriptorTable(std::span<const NamedWeights> all, std::span<const I
 std::string MatchingTable(std::span<const NamedWeights> all, std::span<const ImageSet> sets,
                           const QualityOptions& options) {
   std::string table = Header("inliers (of the best 100)", sets);
-  for (const char* name : {"ORB", "SIFT"}) {
-    table += InlierRow(name, sets, Baseline(name, options));
-  }
-  for (const Variant& variant : Variants(all, options)) {
-    LiftExtractorOptions lift;
-    lift.max_features = options.max_features;
-    lift.precision = variant.precision;
-    lift.upright = variant.upright;
-    lift.num_threads = options.num_threads;
-    table +=
-        InlierRow(variant.name, sets, [&] { return CreateLiftExtractor(*variant.weights, lift); });
-  }
+  for (const auto& [name, make] : Extractors(all, options)) table += InlierRow(name, sets, make);
   return table;
 }
 

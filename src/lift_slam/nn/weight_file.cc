@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include <ostream>
 #include <string_view>
 
+#include "lift_slam/nn/half_float.h"
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
@@ -31,15 +33,6 @@ constexpr const char* kSha256 = "sha256";
 // Bytes that are no UTF-8 (of a file name, say) are replaced.
 std::string Dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-float FromHalf(std::uint16_t bits) {
-  const int exponent = (bits >> 10) & 0x1F;
-  const int fraction = bits & 0x3FF;
-  const float sign = (bits & 0x8000) != 0 ? -1.0F : 1.0F;
-  if (exponent == 0x1F) return std::nanf("");  // infinities are refused just as well
-  if (exponent == 0) return sign * std::ldexp(static_cast<float>(fraction), -24);
-  return sign * std::ldexp(static_cast<float>(fraction + 1024), exponent - 25);
 }
 
 float FromBrainFloat(std::uint16_t bits) {
@@ -205,6 +198,24 @@ class Reader {
 
 }  // namespace
 
+namespace {
+
+// Of a large tensor that loses nothing by it.
+bool FitsHalf(const std::vector<float>& values) {
+  constexpr std::size_t kLarge = 1U << 20;
+  return values.size() >= kLarge &&
+         std::ranges::all_of(values, [](float value) { return FromHalf(ToHalf(value)) == value; });
+}
+
+void AppendAsHalf(const std::vector<float>& values, std::string& data) {
+  for (const float value : values) {
+    const std::uint16_t half = ToHalf(value);
+    data.append(reinterpret_cast<const char*>(&half), sizeof half);
+  }
+}
+
+}  // namespace
+
 std::string ShapeText(const std::vector<std::int64_t>& shape) {
   return fmt::format("[{}]", fmt::join(shape, ", "));
 }
@@ -222,10 +233,16 @@ std::string WriteWeightFile(const WeightFile& contents, const std::filesystem::p
                     "tensor '{}' of shape {} has {} values", name, ShapeText(entry.shape),
                     entry.values.size());
     const std::size_t begin = data.size();
-    data.append(reinterpret_cast<const char*>(entry.values.data()),
-                entry.values.size() * sizeof(float));
-    header[name] = {
-        {"dtype", "F32"}, {"shape", entry.shape}, {"data_offsets", {begin, data.size()}}};
+    const bool half = FitsHalf(entry.values);
+    if (half) {
+      AppendAsHalf(entry.values, data);
+    } else {
+      data.append(reinterpret_cast<const char*>(entry.values.data()),
+                  entry.values.size() * sizeof(float));
+    }
+    header[name] = {{"dtype", half ? "F16" : "F32"},
+                    {"shape", entry.shape},
+                    {"data_offsets", {begin, data.size()}}};
   }
   const std::string sha256 = Sha256Hex(Dump(header) + data);
   header[kMetadata][kSha256] = sha256;

@@ -31,7 +31,8 @@ std::string ShapeText(const std::vector<std::int64_t>& shape);
 // value is not finite, or when it carries a SHA-256 ("sha256" in the metadata) that is not its own.
 WeightFile ReadWeightFile(const std::filesystem::path& path);
 
-// As float32 with the SHA-256, atomically; returns the SHA-256. The same bytes for the same
+// As float32 (a tensor of a million values or more as F16 when that changes none of them) with the
+// SHA-256, atomically; returns the SHA-256. The same bytes for the same
 // contents. CheckError when an entry's shape and size disagree.
 std::string WriteWeightFile(const WeightFile& contents, const std::filesystem::path& path);
 

@@ -88,6 +88,19 @@ TEST_F(WeightFileTest, HalfNumbersAreRead) {
   EXPECT_TRUE(read.metadata.empty());
 }
 
+TEST_F(WeightFileTest, LargeTensorsOfHalfNumbersAreWrittenAsSuch) {
+  WeightFile file;
+  WeightFile::Entry& entry = file.tensors["a"];
+  entry = {{1 << 20}, std::vector<float>(1 << 20, 0.25F)};
+  WriteWeightFile(file, path_);
+  EXPECT_LT(std::filesystem::file_size(path_), (2U << 20) + 500);
+  EXPECT_EQ(ReadWeightFile(path_).tensors.at("a").values, entry.values);
+  entry.values[7] = 0.1F;  // none
+  WriteWeightFile(file, path_);
+  EXPECT_GT(std::filesystem::file_size(path_), 4U << 20);
+  EXPECT_EQ(ReadWeightFile(path_).tensors.at("a").values, entry.values);
+}
+
 TEST_F(WeightFileTest, MissingFile) { EXPECT_THAT(ReadError(), HasSubstr("no such file")); }
 
 TEST_F(WeightFileTest, EveryTruncationIsNoticed) {

@@ -15,7 +15,7 @@ inline constexpr std::string_view kFeatureTypeNames[] = {"orb", "lift"};
 // Which features, and how they are made.
 struct FeatureOptions {
   FeatureType type = FeatureType::kOrb;
-  std::string lift_weights;  // file (.safetensors)
+  std::string lift_weights;  // file (.safetensors); empty: those that ship
   OrbOptions orb;
   LiftExtractorOptions lift = {};
 };

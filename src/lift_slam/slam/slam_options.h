@@ -37,7 +37,8 @@ struct SlamOptions {
     visitor.Field("final_bundle_adjustment", final_bundle_adjustment,
                   "adjust whole maps when the input has ended");
     visitor.Field("features", features.type, kFeatureTypeNames, "kind of features");
-    visitor.Field("lift_weights", features.lift_weights, "file of LIFT's weights (.safetensors)");
+    visitor.Field("lift_weights", features.lift_weights,
+                  "file of LIFT's weights (.safetensors); empty: those that ship");
     visitor.Group("orb", features.orb, "ORB features");
     visitor.Group("lift", features.lift, "LIFT features");
     visitor.Group("matching", matching, "which descriptors match");

@@ -1,0 +1,28 @@
+#include "lift_slam/features/lift/default_weights.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "lift_slam/util/input_error.h"
+
+namespace lift_slam {
+
+std::filesystem::path DefaultLiftWeights() {
+  const char* chosen = std::getenv("LIFT_SLAM_WEIGHTS");
+  return chosen != nullptr && *chosen != '\0' ? chosen : LIFT_SLAM_DEFAULT_WEIGHTS;
+}
+
+LiftWeights ReadLiftWeightsOrDefault(const std::filesystem::path& file) {
+  if (!file.empty()) return ReadLiftWeights(file);
+  const std::filesystem::path path = DefaultLiftWeights();
+  if (!std::filesystem::exists(path)) {
+    throw InputError(
+        fmt::format("LIFT's default weights '{}' are missing: name others by --weights FILE or by "
+                    "the environment variable LIFT_SLAM_WEIGHTS",
+                    path.string()));
+  }
+  return ReadLiftWeights(path);
+}
+
+}  // namespace lift_slam

@@ -1,0 +1,214 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "lift_slam/testing/temporary_folder.h"
+#include "lift_slam/util/input_error.h"
+#include "training/colmap_reader.h"
+#include "training/photograph_import.h"
+#include "training/rendered_import.h"
+#include "training/sift_keypoints.h"
+#include "training/training_set.h"
+
+namespace lift_slam::training {
+namespace {
+
+using testing::HasSubstr;
+
+const ImportProgress kQuiet = [](int, int, std::size_t) {};
+
+// Discs of all sizes, shifted by (dx, dy).
+cv::Mat Discs(int seed, int dx = 0) {
+  cv::Mat image(200, 300, CV_8UC1, cv::Scalar(120));
+  Random random(static_cast<std::uint64_t>(seed));
+  for (int i = 0; i < 150; ++i) {
+    const int x = random.UniformInt(-100, 400) + dx, y = random.UniformInt(0, 199);
+    const int radius = random.UniformInt(2, 10), grey = random.UniformInt(0, 255);
+    for (int v = std::max(0, y - radius); v < std::min(200, y + radius); ++v) {
+      for (int u = std::max(0, x - radius); u < std::min(300, x + radius); ++u) {
+        if (std::hypot(u - x, v - y) < radius) {
+          image.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(grey);
+        }
+      }
+    }
+  }
+  return image;
+}
+
+template <class Function>
+std::string ErrorOf(const Function& function) {
+  try {
+    function();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SiftKeypoints, EmptyPlacesHardlyOverlapKeypoints) {
+  const GrayImage image(Discs(1));
+  std::vector<View> keypoints = DetectSift(image, 2.0, 20);
+  ASSERT_EQ(keypoints.size(), 20U);
+  Random random(1);
+  const std::vector<View> places = EmptyPlaces(image, keypoints, 20, random);
+  ASSERT_FALSE(places.empty());
+  for (const View& place : places) {
+    for (const View& keypoint : keypoints) {
+      if (std::abs(place.sigma / keypoint.sigma - 1.0F) > 0.1F) continue;
+      EXPECT_GT(std::max(std::abs(place.x - keypoint.x), std::abs(place.y - keypoint.y)),
+                4.0F * place.sigma);
+    }
+  }
+}
+
+TEST(PhotographImport, TakesLicencesFromTheManifest) {
+  const TemporaryFolder folder;
+  cv::imwrite(folder / "a.png", Discs(1));
+  cv::imwrite(folder / "not_listed.png", Discs(2));
+  folder.Write("manifest.tsv",
+               "file\tlicence\tauthor\tpackage\tpath\na.png\tCC-BY-2.0\tSomebody\tpkg 1\tx\n");
+  TrainingSetWriter writer(folder / "set");
+  ImportPhotographs(folder.path(), {.num_warps = 2}, kQuiet, writer);
+  writer.Finish("");
+  const TrainingSet set(folder / "set");
+  ASSERT_EQ(set.num_images(), 1U);
+  EXPECT_EQ(set.origin(0).author, "Somebody");
+  EXPECT_EQ(set.origin(0).source, "pkg 1");
+  EXPECT_GT(set.num_points(), 10U);
+  EXPECT_EQ(set.views(0).size(), 1U);
+}
+
+TEST(PhotographImport, PartsShareNoImage) {
+  int training = 0, validation = 0;
+  for (int i = 0; i < 300; ++i) {
+    const std::string name = std::to_string(i) + ".png";
+    training += IsWanted(name, Part::kTraining) ? 1 : 0;
+    validation += IsWanted(name, Part::kValidation) ? 1 : 0;
+    EXPECT_TRUE(IsWanted(name, Part::kAll));
+  }
+  EXPECT_EQ(training + validation, 300);
+  EXPECT_NEAR(validation, 30, 15);
+}
+
+TEST(PhotographImport, RefusesFoldersWithoutPhotographs) {
+  const TemporaryFolder folder;
+  TrainingSetWriter writer(folder / "set");
+  EXPECT_THAT(ErrorOf([&] { ImportPhotographs(folder / "none", {}, kQuiet, writer); }),
+              HasSubstr("there is no such folder"));
+  folder.Write("texts/readme.txt", "no picture");
+  EXPECT_THAT(ErrorOf([&] { ImportPhotographs(folder / "texts", {}, kQuiet, writer); }),
+              HasSubstr("no usable photograph"));
+  folder.Write("bad/manifest.tsv", "file\tlicence\nx.png\tCC0\n");
+  EXPECT_THAT(ErrorOf([&] { ImportPhotographs(folder / "bad", {}, kQuiet, writer); }),
+              HasSubstr("manifest.tsv:2"));
+}
+
+// A camera that moves to the right by 1 m before a wall 10 m away: the picture shifts by fx / 10.
+void WriteRendered(const TemporaryFolder& folder, int shift_px) {
+  std::filesystem::create_directories(folder / "r/sequences/00/image_0");
+  std::filesystem::create_directories(folder / "r/sequences/00/depth_0");
+  std::string calibration, times, poses;
+  for (int i = 0; i < 4; ++i) {
+    calibration += fmt::format("P{}: 200 0 149.5 0 0 200 99.5 0 0 0 1 0\n", i);
+  }
+  for (int i = 0; i < 2; ++i) {
+    const std::string file = fmt::format("00000{}.png", i);
+    cv::imwrite(folder / ("r/sequences/00/image_0/" + file), Discs(3, -i * shift_px));
+    cv::imwrite(folder / ("r/sequences/00/depth_0/" + file),
+                cv::Mat(200, 300, CV_16UC1, cv::Scalar(10 * 256)));
+    times += fmt::format("{}\n", i);
+    poses += fmt::format("1 0 0 {} 0 1 0 0 0 0 1 0\n", i);
+  }
+  folder.Write("r/sequences/00/calib.txt", calibration);
+  folder.Write("r/sequences/00/times.txt", times);
+  folder.Write("r/poses/00.txt", poses);
+  folder.Write("r/pairs.txt", "# first second\n0 1 1 0 0.9\n");
+}
+
+TEST(RenderedImport, RelatesKeypointsByDepthAndPose) {
+  const TemporaryFolder folder;
+  WriteRendered(folder, 20);
+  TrainingSetWriter writer(folder / "set");
+  ImportRendered(folder / "r", {.scene = "wall"}, {}, kQuiet, writer);
+  writer.Finish("");
+  const TrainingSet set(folder / "set");
+  EXPECT_GT(set.num_points(), 20U);
+  for (std::size_t i = 0; i < set.num_points(); ++i) {
+    const auto views = set.views(i);
+    ASSERT_EQ(views.size(), 2U);
+    const float sign = views[0].image == 0 ? 1.0F : -1.0F;
+    EXPECT_NEAR(views[0].x - views[1].x, 20.0F * sign, 0.3F * views[0].sigma + 1.5F);
+  }
+}
+
+TEST(RenderedImport, FindsNothingWherePosesAreWrong) {
+  const TemporaryFolder right, wrong;
+  WriteRendered(right, 20);
+  WriteRendered(wrong, 40);
+  TrainingSetWriter writer(right / "set"), other(wrong / "set");
+  ImportRendered(right / "r", {}, {}, kQuiet, writer);
+  ImportRendered(wrong / "r", {}, {}, kQuiet, other);
+  EXPECT_LT(other.num_points() * 3, writer.num_points());
+}
+
+TEST(RenderedImport, NamesWhatIsMissing) {
+  const TemporaryFolder folder;
+  WriteRendered(folder, 20);
+  std::filesystem::remove(folder / "r/pairs.txt");
+  TrainingSetWriter writer(folder / "set");
+  EXPECT_THAT(ErrorOf([&] { ImportRendered(folder / "r", {}, {}, kQuiet, writer); }),
+              HasSubstr("pairs.txt"));
+}
+
+template <class T>
+void Append(std::string& bytes, T value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string BinaryImages() {
+  std::string bytes;
+  Append(bytes, std::uint64_t{1});
+  Append(bytes, std::uint32_t{7});
+  for (int i = 0; i < 7; ++i) Append(bytes, 0.0);
+  Append(bytes, std::uint32_t{1});
+  bytes += std::string("a b.png") + '\0';
+  Append(bytes, std::uint64_t{2});
+  for (const std::uint64_t point : {~std::uint64_t{0}, std::uint64_t{12}}) {
+    Append(bytes, 1.5);
+    Append(bytes, 2.5);
+    Append(bytes, point);
+  }
+  return bytes;
+}
+
+TEST(ColmapReader, BinaryAndTextGiveTheSame) {
+  const TemporaryFolder folder;
+  folder.Write("binary/images.bin", BinaryImages());
+  folder.Write("text/images.txt", "# comment\n7 1 0 0 0 0 0 0 1 a b.png\n1.5 2.5 -1 1.5 2.5 12\n");
+  for (const char* kind : {"binary", "text"}) {
+    const auto images = ReadColmapImages(folder / kind);
+    ASSERT_EQ(images.size(), 1U) << kind;
+    EXPECT_EQ(images[0].id, 7U);
+    EXPECT_EQ(images[0].name, "a b.png");
+    ASSERT_EQ(images[0].observations.size(), 1U);
+    EXPECT_EQ(images[0].observations[0].keypoint, 1U);
+    EXPECT_EQ(images[0].observations[0].point, 12U);
+  }
+}
+
+TEST(ColmapReader, RefusesWhatIsDamaged) {
+  const TemporaryFolder folder;
+  folder.Write("short/images.bin", BinaryImages().substr(0, 90));
+  EXPECT_THAT(ErrorOf([&] { ReadColmapImages(folder / "short"); }),
+              HasSubstr("ends in the middle"));
+  folder.Write("text/images.txt", "7 1 0 0\n\n");
+  EXPECT_THAT(ErrorOf([&] { ReadColmapImages(folder / "text"); }), HasSubstr("images.txt:1"));
+  EXPECT_THAT(ErrorOf([&] { ReadColmapImages(folder / "nothing"); }), HasSubstr("neither"));
+  folder.Write("database.db", "no database");
+  EXPECT_NE(ErrorOf([&] { ReadColmapKeypoints(folder / "database.db"); }), "");
+}
+
+}  // namespace
+}  // namespace lift_slam::training

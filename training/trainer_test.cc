@@ -1,0 +1,160 @@
+#include "training/trainer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "lift_slam/features/lift/lift_extractor.h"
+#include "lift_slam/testing/temporary_folder.h"
+#include "lift_slam/util/input_error.h"
+#include "training/photograph_import.h"
+
+namespace lift_slam::training {
+namespace {
+
+// Blobs of all sizes: keypoints at many scales.
+cv::Mat Blobs(int seed) {
+  cv::Mat image(240, 320, CV_8UC1, cv::Scalar(120));
+  Random random(static_cast<std::uint64_t>(seed));
+  for (int i = 0; i < 250; ++i) {
+    const int x = random.UniformInt(0, 319), y = random.UniformInt(0, 239);
+    const int radius = random.UniformInt(2, 12), grey = random.UniformInt(0, 255);
+    for (int v = std::max(0, y - radius); v < std::min(240, y + radius); ++v) {
+      for (int u = std::max(0, x - radius); u < std::min(320, x + radius); ++u) {
+        if (std::hypot(u - x, v - y) < radius)
+          image.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(grey);
+      }
+    }
+  }
+  return image;
+}
+
+void MakeSet(const TemporaryFolder& folder) {
+  std::filesystem::create_directories(folder / "pictures");
+  for (int i = 0; i < 3; ++i) {
+    cv::imwrite(folder / ("pictures/" + std::to_string(i) + ".png"), Blobs(i));
+  }
+  TrainingSetWriter writer(folder / "set");
+  ImportPhotographs(
+      folder / "pictures", {.max_points = 60, .num_warps = 1, .max_empty_places = 10},
+      [](int, int, std::size_t) {}, writer);
+  writer.Finish("test");
+}
+
+TrainingOptions TinyRun(const TemporaryFolder& folder, const std::string& stage, int steps) {
+  TrainingOptions options;
+  options.stage = stage;
+  options.data = options.validation = (folder / "set").string();
+  options.run.threads =
+      1;  // steps so small gain nothing by more, and wait for them when others work
+  options.run.validation_every = 2;
+  options.run.validation_batches = 1;
+  for (ScheduleOptions* schedule :
+       {&options.descriptor.schedule, &options.orientation.schedule, &options.detector.schedule}) {
+    *schedule = {.batch = 6, .steps = steps, .learning_rate = 1e-3};
+  }
+  return options;
+}
+
+RunState TrainOn(const TrainingOptions& options, const std::filesystem::path& output, bool resume,
+                 int steps = 1000) {
+  Trainer trainer(options, output, resume, "test");
+  trainer.Run([&](const TrainingProgress&) { return --steps > 0; });
+  return trainer.state();
+}
+
+TEST(Trainer, TrainsAllThreeNetworksAndTheirWeightsExtractFeatures) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  std::string from;
+  for (const char* stage : {"descriptor", "orientation", "detector"}) {
+    TrainingOptions options = TinyRun(folder, stage, 4);
+    options.from = from;
+    EXPECT_EQ(TrainOn(options, folder / stage, false).step, 4);
+    from = (folder / (std::string(stage) + "/best.safetensors")).string();
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string(stage) + "/curves.html")));
+  }
+  const LiftWeights weights = ReadLiftWeights(from);
+  EXPECT_THAT(weights.provenance, testing::HasSubstr("unknown: 3 images"));
+  LiftExtractor extractor(weights, {.max_features = 50});
+  EXPECT_GT(extractor.Extract(GrayImage(Blobs(9))).keypoints.size(), 5U);
+}
+
+TEST(Trainer, TheOtherLossesTrainToo) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  TrainingOptions pairs = TinyRun(folder, "descriptor", 2);
+  pairs.descriptor.loss = DescriptorLoss::kPairs;
+  EXPECT_EQ(TrainOn(pairs, folder / "pairs", false).skipped, 0);
+  TrainingOptions triplets = TinyRun(folder, "descriptor", 2);
+  triplets.descriptor.loss = DescriptorLoss::kTriplet;
+  EXPECT_EQ(TrainOn(triplets, folder / "triplets", false).skipped, 0);
+  TrainingOptions equation2 = TinyRun(folder, "orientation", 2);
+  equation2.orientation.loss = OrientationLoss::kDescriptor;
+  EXPECT_EQ(TrainOn(equation2, folder / "equation2", false).skipped, 0);
+  TrainingOptions equation5 = TinyRun(folder, "detector", 2);
+  equation5.detector.pair_steps = 1;
+  EXPECT_EQ(TrainOn(equation5, folder / "equation5", false).skipped, 0);
+}
+
+TEST(Trainer, GoesOnFromItsCheckpointAsIfNeverStopped) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  TrainingOptions options = TinyRun(folder, "detector", 4);
+  TrainOn(options, folder / "whole", false);
+  EXPECT_EQ(TrainOn(options, folder / "parts", false, 2).step, 2);
+  EXPECT_EQ(TrainOn(options, folder / "parts", true).step, 4);
+  LiftWeights whole = ReadLiftWeights(folder / "whole/latest.safetensors");
+  LiftWeights parts = ReadLiftWeights(folder / "parts/latest.safetensors");
+  const auto expected = Parameters(whole), got = Parameters(parts);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    for (std::size_t k = 0; k < expected[i].values.size(); ++k) {
+      ASSERT_NEAR(expected[i].values[k], got[i].values[k], 1e-5) << expected[i].name;
+    }
+  }
+}
+
+TEST(Trainer, LearnsToTellPointsApart) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  TrainingOptions options = TinyRun(folder, "descriptor", 20);
+  options.descriptor.schedule.batch = 16;
+  options.run.validation_every = 10;
+  options.views = {.max_tilt = 1.1, .position_noise_sigmas = 0.05, .rotation_noise_deg = 1.0};
+  Trainer trainer(options, folder / "run", false, "test");
+  double first = 0.0, last = 0.0;
+  trainer.Run([&](const TrainingProgress& progress) {
+    if (first == 0.0) first = progress.loss;
+    last = progress.loss;  // running mean
+    return true;
+  });
+  EXPECT_LT(last, first - 0.02);
+}
+
+TEST(Trainer, RefusesWhatCannotBe) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  const auto refuses = [&](const TrainingOptions& options, bool resume, const char* why) {
+    try {
+      Trainer trainer(options, folder / "run", resume, "test");
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(why));
+      return;
+    }
+    ADD_FAILURE() << "not refused: " << why;
+  };
+  TrainingOptions options = TinyRun(folder, "detector", 2);
+  refuses(options, true, "nothing to resume");
+  TrainingOptions nowhere = options;
+  nowhere.data = (folder / "nowhere").string();
+  refuses(nowhere, false, "no such training set");
+  TrainingOptions unknown = options;
+  unknown.stage = "colour";
+  refuses(unknown, false, "is unknown");
+  TrainOn(options, folder / "run", false);
+  refuses(options, false, "--resume");
+}
+
+}  // namespace
+}  // namespace lift_slam::training

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lift_slam::training {
+
+// One line of log.csv.
+struct LogEntry {
+  std::int64_t step = 0;
+  double hours = 0.0;  // spent training
+  double loss = 0.0;   // mean since the line before
+  double steps_per_s = 0.0;
+  std::vector<std::pair<std::string, double>> validation{};  // empty: without validation sets
+};
+
+// The course of a run: log.csv and, drawn from it, curves.html (SVG).
+class TrainingLog {
+ public:
+  // `folder` is the run's. With `going_on`, lines up to `step` are kept and later ones, of a run
+  // that ended before its checkpoint, dropped.
+  TrainingLog(const std::filesystem::path& folder, bool going_on, std::int64_t step);
+  // Throws InputError when the files cannot be written.
+  void Add(const LogEntry& entry);
+
+ private:
+  void Draw() const;
+
+  std::filesystem::path folder_;
+  std::vector<std::string> lines_;  // the heading first
+};
+
+}  // namespace lift_slam::training
