@@ -169,17 +169,22 @@ FusionCounts MapSession::Absorb(MapSession&& other, const PlaceAttempt& attempt,
 MapBundleReport MapSession::AdjustWhole(const BundleOptions& options) {
   const KeyFrameScales before(*map_);
   const MapBundleReport report = AdjustWholeMap(options, *map_);
-  if (report.solver.usable) {
-    const std::vector<double> scales = before.ChangesIn(*map_);
-    map_->ScaleReferences(scales);
-    ScaleFrames(scales);
-  }
+  if (report.solver.usable) FollowScales(before);
   return report;
 }
 
 void MapSession::SelfCalibrate(const SelfCalibrationOptions& options) {
+  const KeyFrameScales before(*map_);
   const SelfCalibrationReport report = SelfCalibrateMap(options, *map_);
-  if (report.usable) correction_ = report.correction;
+  if (!report.usable) return;
+  correction_ = report.correction;
+  FollowScales(before);
+}
+
+void MapSession::FollowScales(const KeyFrameScales& before) {
+  const std::vector<double> scales = before.ChangesIn(*map_);
+  map_->ScaleReferences(scales);
+  ScaleFrames(scales);
 }
 
 void MapSession::RememberGray(KeyFrameId keyframe_id, const GrayImage& image) {

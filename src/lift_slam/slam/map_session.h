@@ -17,6 +17,8 @@
 
 namespace lift_slam {
 
+class KeyFrameScales;
+
 // One map from its first two views to its end, with the tracker and mapper that work on it and the
 // frames tracked in it.
 class MapSession {
@@ -73,6 +75,8 @@ class MapSession {
   void Backfill(std::vector<Frame> waiting, const Frame& current);
   void InsertKeyFrame(const GrayImage& image, Frame& frame, Step& step);
   void Finish(const PreparedFrame& prepared, Frame& frame, Step& step);
+  // Whatever is kept relative to keyframes follows how the units around them have changed.
+  void FollowScales(const KeyFrameScales& before);
   // Frames follow their reference keyframes, by id, whose lengths have changed by these factors.
   void ScaleFrames(const std::vector<double>& scale_of_keyframe);
   void RememberGray(KeyFrameId keyframe, const GrayImage& image);
