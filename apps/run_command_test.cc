@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "apps/run_test_fixture.h"
 #include "lift_slam/util/file.h"
 
@@ -34,6 +36,26 @@ TEST_F(RunCommand, BothModesAndARepeatedRunGiveTheSameBytes) {
   const std::string first = trajectory("--mode sequential --seed 3");
   EXPECT_EQ(first, trajectory("--mode sequential --seed 3"));
   EXPECT_EQ(first, trajectory("--mode threaded --seed 3"));
+}
+
+TEST_F(RunCommand, WithoutAVocabularyForTheFeaturesTheRunSaysSoAndGoesOn) {
+  fs::create_directories(folder_ / "none");
+  setenv("LIFT_SLAM_VOCABULARY_DIR", (folder_ / "none").c_str(), 1);
+  const auto json = ExpectAllOutputs(Run(Render(kTum, kFrames)), 0);
+  unsetenv("LIFT_SLAM_VOCABULARY_DIR");
+  EXPECT_THAT(json["places"]["notice"], HasSubstr("no vocabulary for 'orb' features"));
+  EXPECT_THAT(ReadText(output_ / "log.txt"), HasSubstr("loop closing and relocalisation are off"));
+}
+
+TEST_F(RunCommand, ShippedVocabularyIsFoundByItself) {
+  const auto json = ExpectAllOutputs(Run(Render(kTum, kFrames)), 0);
+  EXPECT_EQ(json["places"]["notice"], "");
+}
+
+TEST_F(RunCommand, VocabularyThatIsNone) {
+  WriteTextAtomically(folder_ / "words", "no vocabulary");
+  ExpectOneSentence(Run(Render(kTum, 5), "--vocabulary " + (folder_ / "words").string()),
+                    {(folder_ / "words").string()});
 }
 
 TEST_F(RunCommand, MissingFolder) {

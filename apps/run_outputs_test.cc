@@ -66,6 +66,8 @@ TEST_F(RunOutputs, GoodRunLeavesEveryFileAndTheFieldsOfTheSpecification) {
   EXPECT_EQ(json["coverage"]["maps"], 1);
   EXPECT_EQ(json["coverage"]["loops_closed"], 0);
   EXPECT_EQ(json["coverage"]["relocalisations"], 0);
+  EXPECT_EQ(json["places"]["loops_closed"], 0);
+  EXPECT_TRUE(json["places"]["events"].empty());
   EXPECT_EQ(json["states"]["tracking"], 115);
   EXPECT_EQ(json["refusals"]["low_parallax"], 3);
   EXPECT_EQ(json["refusals"]["pose_rejected"], 0);

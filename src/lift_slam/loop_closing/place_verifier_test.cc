@@ -91,9 +91,11 @@ TEST_F(PlaceVerifierTest, AnotherPlaceIsRefusedWithTheReason) {
 TEST_F(PlaceVerifierTest, AMapWhosePointsAreInAnotherShapeIsRefused) {
   // The same looks in places that do not fit: no similarity explains them.
   Random random(3);  // a hundredth to a hundred times as far: hardly any two agree
+  const Eigen::Vector3d center = second_.keyframe(KeyFrameId(2)).Center();
   for (const MapPointId id : second_.PointIds()) {
     MapPoint& point = second_.point(id);
-    point.position *= std::pow(10.0, random.Uniform(-2.0, 2.0));
+    const double factor = std::pow(10.0, random.Uniform(-2.0, 2.0));
+    point.position = center + factor * (point.position - center);
   }
   const LoopReport report = Find(second_, *second_closer_);
   ASSERT_FALSE(report.attempts.empty());

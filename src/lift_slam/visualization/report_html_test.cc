@@ -53,6 +53,30 @@ TEST(ReportHtml, TextFromOutsideIsEscaped) {
   EXPECT_EQ(XmlProblem(html, /*html=*/true), "");
 }
 
+TEST(ReportHtml, PlacesAreDrawnAndListedWithTheirReasons) {
+  FakeRun fake = MakeFakeRun({.num_frames = 120});
+  PlaceEvent loop;
+  loop.frame_index = 110;
+  loop.other_frame_index = 20;
+  loop.num_inliers = 87;
+  PlaceEvent refused = loop;
+  refused.rejection = PlaceRejection::kFewFound;
+  fake.run.place_events = {refused, loop};
+  const std::string html = ReportHtml(fake.run, MakeFakeReportData(fake, true));
+  EXPECT_EQ(XmlProblem(html, /*html=*/true), "");
+  EXPECT_THAT(html, HasSubstr("Places seen before"));
+  EXPECT_THAT(html, HasSubstr(">loop</text>")) << "legend";
+  EXPECT_THAT(html, HasSubstr("only some texture repeats itself"));
+}
+
+TEST(ReportHtml, SaysWhyPlacesWereNotRecognised) {
+  FakeRun fake = MakeFakeRun({.num_frames = 30});
+  fake.run.place_recognition_notice = "no vocabulary for 'lift' & co";
+  const std::string html = ReportHtml(fake.run, MakeFakeReportData(fake, true));
+  EXPECT_EQ(XmlProblem(html, /*html=*/true), "");
+  EXPECT_THAT(html, HasSubstr("no vocabulary for"));
+}
+
 TEST(ReportHtml, WithoutTruthSaysMapUnitsAndShowsNoError) {
   const std::string html = FakeReport({.num_frames = 60}, false);
   EXPECT_THAT(html, HasSubstr("z [map units]"));
