@@ -1,5 +1,7 @@
 #include "lift_slam/loop_closing/loop_closer.h"
 
+#include <algorithm>
+
 #include "lift_slam/util/timer.h"
 
 namespace lift_slam {
@@ -14,6 +16,29 @@ void CountCandidates(const std::vector<CandidateVerdict>& verdicts, LoopReport& 
 bool IsAccepted(const LoopReport& report) {
   return !report.attempts.empty() &&
          report.attempts.back().match.rejection == PlaceRejection::kAccepted;
+}
+
+// Length of the way along the keyframes from one to a later one.
+double WayBetween(const Map& map, KeyFrameId first, KeyFrameId last) {
+  double length = 0.0;
+  const KeyFrame* before = nullptr;
+  for (const KeyFrameId id : map.KeyFrameIds()) {
+    if (id < first || last < id) continue;
+    const KeyFrame& keyframe = map.keyframe(id);
+    if (before != nullptr) length += (keyframe.Center() - before->Center()).norm();
+    before = &keyframe;
+  }
+  return length;
+}
+
+// How far the loop says that the query is from where the map has it, over the way from the place.
+double DriftRatio(const Map& map, const PlaceAttempt& attempt) {
+  const Eigen::Vector3d claimed =
+      Inverse(attempt.match.query_from_candidate_world) * Eigen::Vector3d::Zero();
+  const double drift = (map.keyframe(attempt.edge.query).Center() - claimed).norm();
+  const double way = WayBetween(map, std::min(attempt.edge.query, attempt.edge.candidate),
+                                std::max(attempt.edge.query, attempt.edge.candidate));
+  return way > 0.0 ? drift / way : 0.0;
 }
 
 }  // namespace
@@ -46,6 +71,10 @@ LoopReport LoopCloser::Process(KeyFrameId keyframe, Map& map) {
   if (!IsAccepted(report)) return report;
 
   PlaceAttempt& attempt = report.attempts.back();
+  if (DriftRatio(map, attempt) > options_.max_drift_ratio) {
+    attempt.match.rejection = PlaceRejection::kTooMuchDrift;
+    return report;
+  }
   LoopCorrection correction =
       CorrectLoop(attempt.match, attempt.edge, tree_, loops_, options_.correction, map);
   last_loop_ = keyframe;

@@ -58,6 +58,8 @@ void LoopClosingOptions::Visit(OptionVisitor& visitor) {
                 "keyframes between a candidate and the query at least");
   visitor.Field("min_keyframes_after_loop", min_keyframes_after_loop,
                 "keyframes before the next loop is looked for");
+  visitor.Field("max_drift_ratio", max_drift_ratio,
+                "displacement by a loop over the length of the way, at most");
   visitor.Field("max_verified", max_verified, "candidates verified at most, best first");
   visitor.Group("verification", verification, "whether a candidate is the same place");
   visitor.Group("correction", correction, "of the map");

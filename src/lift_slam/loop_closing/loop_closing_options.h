@@ -18,7 +18,7 @@ struct PlaceVerificationOptions {
   // Between both cameras, over the median depth of the candidate's points: what is far off is
   // placed roughly, and comes nearer when it is the same way.
   double max_offset_ratio = 1.0;
-  int min_projected = 40;  // features that show a point of the place (ORB-SLAM2's 40)
+  int min_projected = 70;  // features that show a point of the place; false ones reached 61
   // Share of the place's points that the query should see and does, over the same share of the
   // points around the query. A road whose texture repeats gives 0.1 with a perfect geometry.
   double min_found_ratio = 0.4;
@@ -63,6 +63,9 @@ struct LoopClosingOptions {
   int min_keyframes_apart = 20;
   int min_keyframes_after_loop = 10;  // before the next loop is looked for (as ORB-SLAM)
   int max_verified = 5;               // candidates, best first
+  // Displacement of the query over the length of the way since the candidate: what is farther off
+  // did not get there by drift. A wrong place that looks the same is as far away as any other.
+  double max_drift_ratio = 0.3;
   PlaceVerificationOptions verification;
   LoopCorrectionOptions correction;
 

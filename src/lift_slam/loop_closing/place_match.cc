@@ -20,6 +20,8 @@ std::string_view Name(PlaceRejection rejection) {
       return "few_found";
     case PlaceRejection::kNotConfirmed:
       return "not_confirmed";
+    case PlaceRejection::kTooMuchDrift:
+      return "too_much_drift";
     case PlaceRejection::kGraphFailed:
       return "graph_failed";
     case PlaceRejection::kCount:
@@ -46,6 +48,8 @@ std::string_view Explain(PlaceRejection rejection) {
       return "Most of the place's points are not seen: only some texture repeats itself.";
     case PlaceRejection::kNotConfirmed:
       return "The keyframes before do not see the place.";
+    case PlaceRejection::kTooMuchDrift:
+      return "It would mean more drift than the way between both places can have made.";
     case PlaceRejection::kGraphFailed:
       return "The correction of the map could not be computed.";
     case PlaceRejection::kCount:
