@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lift_slam/image/pyramid.h"
-#include "training/mapped_file.h"
+#include "lift_slam/util/mapped_file.h"
 
 namespace lift_slam::training {
 

@@ -75,10 +75,15 @@ LoopReport LoopCloser::Process(KeyFrameId keyframe, Map& map) {
     attempt.match.rejection = PlaceRejection::kTooMuchDrift;
     return report;
   }
+  if (!confirmation_.Confirms(keyframe, attempt.match.query_from_candidate_world, map)) {
+    attempt.match.rejection = PlaceRejection::kNotRepeated;
+    return report;
+  }
   LoopCorrection correction =
       CorrectLoop(attempt.match, attempt.edge, tree_, loops_, options_.correction, map);
   last_loop_ = keyframe;
   detector_.Reset();
+  confirmation_.Reset();
   if (correction.graph.usable) {
     loops_.push_back(attempt.edge);
     report.correction = std::move(correction);
@@ -132,6 +137,7 @@ void LoopCloser::Absorb(const LoopCloser& other, int offset, const LoopEdge& mer
   loops_.push_back(merged_by);
   last_loop_ = merged_by.query;
   detector_.Reset();
+  confirmation_.Reset();
 }
 
 }  // namespace lift_slam

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "lift_slam/loop_closing/loop_confirmation.h"
 #include "lift_slam/loop_closing/loop_corrector.h"
 #include "lift_slam/loop_closing/loop_detector.h"
 
@@ -39,7 +40,8 @@ class LoopCloser {
       : options_(options),
         seed_(seed),
         places_(std::move(vocabulary), options.score),
-        detector_(options) {}
+        detector_(options),
+        confirmation_(options.confirmation) {}
 
   // Call once for each new keyframe after local mapping. Closes at most one loop; what the caller
   // keeps relative to the map's keyframes must then follow (LoopCorrection).
@@ -72,6 +74,7 @@ class LoopCloser {
   PlaceIndex places_;
   SpanningTree tree_;
   LoopDetector detector_;
+  LoopConfirmation confirmation_;
   std::vector<LoopEdge> loops_;
   KeyFrameId last_loop_;  // its query
 };

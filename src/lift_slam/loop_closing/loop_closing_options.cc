@@ -45,6 +45,14 @@ void LoopCorrectionOptions::Visit(OptionVisitor& visitor) {
   visitor.Group("graph", graph, "essential graph optimisation");
 }
 
+void LoopConfirmationOptions::Visit(OptionVisitor& visitor) {
+  visitor.Field("enabled", enabled, "believe a loop only when two keyframes say the same of it");
+  visitor.Field("max_keyframes_between", max_keyframes_between,
+                "keyframes between those two at most");
+  visitor.Field("max_disagreement", max_disagreement,
+                "difference of their positions over the way between them");
+}
+
 void LoopClosingOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("enabled", enabled, "close loops, where there is a vocabulary for the features");
   visitor.Field("vocabulary", vocabulary, "file; empty: the one shipped for the features");
@@ -62,6 +70,7 @@ void LoopClosingOptions::Visit(OptionVisitor& visitor) {
                 "displacement by a loop over the length of the way, at most");
   visitor.Field("max_verified", max_verified, "candidates verified at most, best first");
   visitor.Group("verification", verification, "whether a candidate is the same place");
+  visitor.Group("confirmation", confirmation, "whether keyframes agree on a loop");
   visitor.Group("correction", correction, "of the map");
 }
 

@@ -51,6 +51,14 @@ struct LoopCorrectionOptions {
   void Visit(OptionVisitor& visitor);
 };
 
+struct LoopConfirmationOptions {
+  bool enabled = true;
+  int max_keyframes_between = 20;  // both keyframes that say the same
+  double max_disagreement = 0.3;   // of their positions, over the way between them
+
+  void Visit(OptionVisitor& visitor);
+};
+
 struct LoopClosingOptions {
   bool enabled = true;             // where there is a vocabulary for the features
   std::string vocabulary;          // file; empty: the one shipped for the features
@@ -67,6 +75,7 @@ struct LoopClosingOptions {
   // did not get there by drift. A wrong place that looks the same is as far away as any other.
   double max_drift_ratio = 0.3;
   PlaceVerificationOptions verification;
+  LoopConfirmationOptions confirmation;
   LoopCorrectionOptions correction;
 
   void Visit(OptionVisitor& visitor);

@@ -20,6 +20,8 @@ std::string_view Name(PlaceRejection rejection) {
       return "few_found";
     case PlaceRejection::kNotConfirmed:
       return "not_confirmed";
+    case PlaceRejection::kNotRepeated:
+      return "not_repeated";
     case PlaceRejection::kTooMuchDrift:
       return "too_much_drift";
     case PlaceRejection::kGraphFailed:
@@ -48,6 +50,8 @@ std::string_view Explain(PlaceRejection rejection) {
       return "Most of the place's points are not seen: only some texture repeats itself.";
     case PlaceRejection::kNotConfirmed:
       return "The keyframes before do not see the place.";
+    case PlaceRejection::kNotRepeated:
+      return "No other keyframe nearby says the same, moved on by its own way (yet).";
     case PlaceRejection::kTooMuchDrift:
       return "It would mean more drift than the way between both places can have made.";
     case PlaceRejection::kGraphFailed:

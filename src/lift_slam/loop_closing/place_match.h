@@ -18,6 +18,7 @@ enum class PlaceRejection {
   kFewProjected,    // too few of the place's points are found where it puts them
   kFewFound,        // too small a share of them, as where only a texture repeats itself
   kNotConfirmed,    // the keyframes around the query do not see the place's points
+  kNotRepeated,     // no other keyframe nearby says the same (yet)
   kTooMuchDrift,    // it would mean more drift than the way between both can have made
   kGraphFailed,     // the pose graph could not be solved; the map is as it was
   kCount

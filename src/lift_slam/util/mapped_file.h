@@ -11,6 +11,7 @@ namespace lift_slam {
 // is replaced by renaming another onto it is safe).
 class MappedFile {
  public:
+  MappedFile() = default;  // no file, no bytes
   // Throws InputError when the file is missing or cannot be read.
   explicit MappedFile(const std::filesystem::path& path);
   ~MappedFile();
