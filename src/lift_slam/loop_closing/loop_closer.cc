@@ -56,6 +56,7 @@ LoopReport LoopCloser::Process(KeyFrameId keyframe, Map& map) {
   LoopReport report;
   const Timer detect_timer;
   Update(map);
+  report.bundle = bundle_.KeyFrameAdded(tree_, map);
   const bool is_too_early =
       last_loop_.valid() && keyframe.value - last_loop_.value < options_.min_keyframes_after_loop;
   if (is_too_early) {
@@ -86,6 +87,7 @@ LoopReport LoopCloser::Process(KeyFrameId keyframe, Map& map) {
   confirmation_.Reset();
   if (correction.graph.usable) {
     loops_.push_back(attempt.edge);
+    bundle_.Begin(map);
     report.correction = std::move(correction);
   } else {
     attempt.match.rejection = PlaceRejection::kGraphFailed;
@@ -138,6 +140,7 @@ void LoopCloser::Absorb(const LoopCloser& other, int offset, const LoopEdge& mer
   last_loop_ = merged_by.query;
   detector_.Reset();
   confirmation_.Reset();
+  bundle_.GiveUp();
 }
 
 }  // namespace lift_slam

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "lift_slam/loop_closing/loop_bundle.h"
 #include "lift_slam/loop_closing/loop_confirmation.h"
 #include "lift_slam/loop_closing/loop_corrector.h"
 #include "lift_slam/loop_closing/loop_detector.h"
@@ -26,6 +27,8 @@ struct LoopReport {
   std::array<int, kNumCandidateRejections> candidates{};
   std::vector<PlaceAttempt> attempts;        // in order; the last is the accepted one, if any
   std::optional<LoopCorrection> correction;  // a loop was closed
+  // That of an earlier loop was merged, before anything else.
+  std::optional<LoopBundleReport> bundle;
   double detect_ms = 0.0, verify_ms = 0.0;
 
   bool closed() const { return correction.has_value(); }
@@ -41,10 +44,11 @@ class LoopCloser {
         seed_(seed),
         places_(std::move(vocabulary), options.score),
         detector_(options),
-        confirmation_(options.confirmation) {}
+        confirmation_(options.confirmation),
+        bundle_(options.bundle) {}
 
   // Call once for each new keyframe after local mapping. Closes at most one loop; what the caller
-  // keeps relative to the map's keyframes must then follow (LoopCorrection).
+  // keeps relative to the map's keyframes must then follow (LoopCorrection, LoopBundleReport).
   LoopReport Process(KeyFrameId keyframe, Map& map);
 
   // Recognises the keyframe of `map` in another map, whose closer is given. The last attempt of the
@@ -58,6 +62,8 @@ class LoopCloser {
 
   // Brings index and tree up to date with the map's keyframes.
   void Update(const Map& map);
+  // An adjustment of the whole map that is under way is not merged any more.
+  void GiveUpBundle() { bundle_.GiveUp(); }
   // The other closer's map has been absorbed (Map::Absorb), with ids moved up by `offset`, for the
   // loop's edge (ids of this map).
   void Absorb(const LoopCloser& other, int offset, const LoopEdge& merged_by);
@@ -75,6 +81,7 @@ class LoopCloser {
   SpanningTree tree_;
   LoopDetector detector_;
   LoopConfirmation confirmation_;
+  LoopBundle bundle_;
   std::vector<LoopEdge> loops_;
   KeyFrameId last_loop_;  // its query
 };

@@ -53,6 +53,20 @@ void LoopConfirmationOptions::Visit(OptionVisitor& visitor) {
                 "difference of their positions over the way between them");
 }
 
+BundleOptions LoopBundleOptions::Defaults() {
+  BundleOptions options;
+  options.robust_iterations = 4;
+  options.plain_iterations = 4;
+  return options;
+}
+
+void LoopBundleOptions::Visit(OptionVisitor& visitor) {
+  visitor.Field("enabled", enabled, "adjust the whole map after a loop, beside tracking");
+  visitor.Field("merge_after_keyframes", merge_after_keyframes,
+                "made since the loop, until the result is waited for and merged");
+  visitor.Group("bundle", bundle, "bundle adjustment");
+}
+
 void LoopClosingOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("enabled", enabled, "close loops, where there is a vocabulary for the features");
   visitor.Field("vocabulary", vocabulary, "file; empty: the one shipped for the features");
@@ -72,6 +86,7 @@ void LoopClosingOptions::Visit(OptionVisitor& visitor) {
   visitor.Group("verification", verification, "whether a candidate is the same place");
   visitor.Group("confirmation", confirmation, "whether keyframes agree on a loop");
   visitor.Group("correction", correction, "of the map");
+  visitor.Group("bundle", bundle, "bundle adjustment of the whole map after a loop");
 }
 
 }  // namespace lift_slam

@@ -4,6 +4,7 @@
 
 #include "lift_slam/geometry/absolute_pose.h"
 #include "lift_slam/geometry/chi_square.h"
+#include "lift_slam/optimization/bundle_adjustment.h"
 #include "lift_slam/optimization/pose_graph.h"
 #include "lift_slam/optimization/sim3_optimization.h"
 #include "lift_slam/place_recognition/loop_candidates.h"
@@ -59,6 +60,15 @@ struct LoopConfirmationOptions {
   void Visit(OptionVisitor& visitor);
 };
 
+struct LoopBundleOptions {
+  bool enabled = true;
+  int merge_after_keyframes = 20;  // made since the loop; then its end is waited for
+  BundleOptions bundle = Defaults();
+
+  void Visit(OptionVisitor& visitor);
+  static BundleOptions Defaults();
+};
+
 struct LoopClosingOptions {
   bool enabled = true;             // where there is a vocabulary for the features
   std::string vocabulary;          // file; empty: the one shipped for the features
@@ -77,6 +87,7 @@ struct LoopClosingOptions {
   PlaceVerificationOptions verification;
   LoopConfirmationOptions confirmation;
   LoopCorrectionOptions correction;
+  LoopBundleOptions bundle;
 
   void Visit(OptionVisitor& visitor);
 };

@@ -113,6 +113,12 @@ void MapCollection::RecordReport(const LoopReport& report, const MapSession& oth
   auto& times = record_.stage_times_ms;
   times[stage + ".detect"].push_back(report.detect_ms);
   if (!report.attempts.empty()) times[stage + ".verify"].push_back(report.verify_ms);
+  if (report.bundle) {
+    times[stage + ".bundle"].push_back(report.bundle->solve_ms);
+    times[stage + ".bundle_wait"].push_back(report.bundle->wait_ms);
+    times[stage + ".bundle_merge"].push_back(report.bundle->merge_ms);
+    ++record_.counters[stage + ".bundles_merged"];
+  }
   if (!report.correction) return;
   times[stage + ".graph"].push_back(report.correction->graph_ms);
   times[stage + ".fuse"].push_back(report.correction->fusion_ms);

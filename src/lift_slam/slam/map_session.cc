@@ -108,13 +108,16 @@ void MapSession::InsertKeyFrame(const GrayImage& image, Frame& frame, Step& step
   tracker_.KeyFrameMapped(*map_, keyframe);
   if (loop_closer_) {
     step.loop = loop_closer_->Process(keyframe, *map_);
-    if (step.loop->closed()) {
-      const std::vector<double>& scale = step.loop->correction->scale_of_keyframe;
-      ScaleFrames(scale);
-      tracker_.MapCorrected(*map_, keyframe, scale[keyframe.index()]);
-    }
+    const LoopReport& loop = *step.loop;
+    if (loop.bundle) FollowMap(loop.bundle->scale_of_keyframe, keyframe);
+    if (loop.closed()) FollowMap(loop.correction->scale_of_keyframe, keyframe);
   }
   frame.cam_from_world = map_->keyframe(keyframe).cam_from_world;
+}
+
+void MapSession::FollowMap(const std::vector<double>& scale_of_keyframe, KeyFrameId newest) {
+  ScaleFrames(scale_of_keyframe);
+  tracker_.MapCorrected(*map_, newest, scale_of_keyframe[newest.index()]);
 }
 
 void MapSession::ScaleFrames(const std::vector<double>& scale_of_keyframe) {
@@ -169,6 +172,7 @@ FusionCounts MapSession::Absorb(MapSession&& other, const PlaceAttempt& attempt,
 
 void MapSession::AdjustFinally(const BundleOptions& bundle,
                                const SelfCalibrationOptions& calibration, StageTimes& times_ms) {
+  if (loop_closer_) loop_closer_->GiveUpBundle();
   const KeyFrameScales before(*map_);
   const bool is_short = IsCalibratedAsAWhole(calibration, *map_);
   const auto adjust = [&] {

@@ -74,6 +74,8 @@ class MapSession {
   void Backfill(std::vector<Frame> waiting, const Frame& current);
   void InsertKeyFrame(const GrayImage& image, Frame& frame, Step& step);
   void Finish(const PreparedFrame& prepared, Frame& frame, Step& step);
+  // The map has been moved as a whole: frames and tracker go with it.
+  void FollowMap(const std::vector<double>& scale_of_keyframe, KeyFrameId newest);
   // Frames follow their reference keyframes, by id, whose lengths have changed by these factors.
   void ScaleFrames(const std::vector<double>& scale_of_keyframe);
   void RememberGray(KeyFrameId keyframe, const GrayImage& image);
