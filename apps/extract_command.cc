@@ -85,7 +85,7 @@ void ExtractImages(const ExtractArguments& arguments) {
   const LiftWeights weights = ReadLiftWeightsOrDefault(arguments.weights);
   if (!weights.orientation && !arguments.options.upright) {
     throw InputError(
-        fmt::format("the weights '{}' have no orientation network; say --upright", weights.name));
+        fmt::format("the weights '{}' have no orientation network; leave --turned out", weights.name));
   }
   LiftExtractor extractor(weights, arguments.options);
   if (!extractor.precision().reason.empty()) {
@@ -145,7 +145,8 @@ void AddExtractCommand(CLI::App& app) {
       ->required();
   command->add_option("--max-features", options.max_features, "Features an image; 0: all found")
       ->capture_default_str();
-  command->add_flag("--upright", options.upright, "Patches are not turned");
+  command->add_flag("--upright,!--turned", options.upright,
+                    "Patches are not turned (default), or turned by the orientation network");
   command
       ->add_option("--first-level", options.detector.first_level,
                    "First level searched; 5 leaves the up-sampled octave out")

@@ -54,7 +54,7 @@ TEST_F(ExtractCommand, WritesFeaturesAndAPicture) {
 TEST_F(ExtractCommand, BadInputIsOneSentence) {
   const std::string files = " --weights " + Path("w.safetensors") + " --output " + Path("out");
   for (const std::string& arguments :
-       {Path("a.png") + files, Path("missing.png") + " --upright" + files,
+       {Path("a.png") + " --turned" + files, Path("missing.png") + " --upright" + files,
         Path("a.png") + " " + Path("a.png") + " --upright" + files,
         Path("a.png") + " --upright --first-level 30" + files,
         Path("a.png") + " --upright --weights " + Path("none") + " --output " + Path("out")}) {

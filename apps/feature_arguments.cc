@@ -18,7 +18,8 @@ void FeatureArguments::AddTo(CLI::App& command) {
   command.add_option("--max-features", max_features, "Features an image; 0: the extractor's own")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  command.add_flag("--upright", upright, "LIFT's patches are not turned");
+  command.add_flag("--upright,!--turned", upright,
+                   "LIFT's patches are not turned (default), or turned by the orientation network");
   command.add_option("--threads", num_threads, "Threads")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

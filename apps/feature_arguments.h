@@ -17,7 +17,7 @@ struct FeatureArguments {
   std::string features;           // "orb" or "lift"; empty: lift when weights are given, else orb
   std::filesystem::path weights;  // of LIFT; empty: those that ship
   int max_features = 0;           // an image; 0: the extractor's default
-  bool upright = false;           // LIFT's patches are not turned
+  bool upright = true;            // LIFT's patches are not turned
   int num_threads = 2;
 
   // Adds them to a command; *this must outlive it.

@@ -176,7 +176,8 @@ void AddFeatureOptions(CLI::App& command, MatchArguments& arguments) {
       ->capture_default_str();
   command.add_option("--weights", arguments.features.weights,
                      "LIFT weights (.safetensors; default: those that ship)");
-  command.add_flag("--upright", lift.upright, "LIFT's patches are not turned");
+  command.add_flag("--upright,!--turned", lift.upright,
+                   "LIFT's patches are not turned (default), or turned by the orientation network");
   command.add_option("--max-features", lift.max_features, "Features an image")
       ->capture_default_str();
   command.add_option("--precision", arguments.precision, "Arithmetic of LIFT's networks")

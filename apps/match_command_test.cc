@@ -121,7 +121,7 @@ TEST_F(MatchCommand, BadInputIsOneSentence) {
            {Path("a.png") + " " + Path("none.png") + " --features orb" + output, "none.png"},
            {Images() + "--features surf" + output, "'surf' is unknown"},
            {Images() + "--features lift --weights none" + output, "none"},
-           {Images() + lift, "--upright"},
+           {Images() + " --turned " + lift, "--turned"},
            {Path("a.png") + " " + Path("tiny.png") + " --upright " + lift, "tiny.png"},
            {Images() + "--features orb --weights " + Path("w.safetensors") + output, "not orb"},
            {Images() + "--features lift --weights " + Path("a.png") + output, "a.png"},

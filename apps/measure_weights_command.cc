@@ -111,7 +111,8 @@ void AddDistances(CLI::App& weights) {
       ->expected(-1);
   command->add_option("--warps", distances.warps_per_image, "Warped copies of each image")
       ->capture_default_str();
-  command->add_flag("--upright", distances.upright, "Patches are not turned");
+  command->add_flag("--upright,!--turned", distances.upright,
+                    "Patches are not turned (default), or turned by the orientation network");
   command->callback([arguments] { MeasureDistancesOf(*arguments); });
 }
 

@@ -15,7 +15,7 @@ NamedExtractor MakeLift(const PairFeatures& features) {
   const LiftWeights weights = ReadLiftWeightsOrDefault(features.weights);
   if (!weights.orientation && !features.lift.upright) {
     throw InputError(
-        fmt::format("the weights '{}' have no orientation network; say --upright", weights.name));
+        fmt::format("the weights '{}' have no orientation network; leave --turned out", weights.name));
   }
   auto extractor = std::make_unique<LiftExtractor>(weights, features.lift);
   std::string title =

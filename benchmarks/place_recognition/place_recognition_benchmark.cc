@@ -2,7 +2,7 @@
 // alike of those at least GAP before it. Prints a row a vocabulary and score, as Markdown.
 //
 // Usage: place_recognition_benchmark SEQUENCE [--period N] [--step N] [--gap N] [--weights FILE]
-//        [--upright] [--curves FILE] VOCABULARY...
+//        [--turned] [--curves FILE] VOCABULARY...
 //   --period   images a lap: image i shows the place of image i - N, up to 2 images beside; without
 //              it the sequence's ground truth decides: within --distance of the camera and --angle
 //   --curves   writes every point of every curve: name, threshold, precision, recall
@@ -33,7 +33,7 @@ struct Arguments {
   std::string sequence, weights, curves;
   int period = 0, step = 1, gap = 10;
   double distance = 2.0, angle_deg = 25.0;
-  bool upright = false;
+  bool upright = true;
   std::vector<std::string> vocabularies;
 };
 
@@ -190,8 +190,8 @@ Arguments Parse(int argc, char** argv) {
       arguments.angle_deg = std::stod(value());
     } else if (word == "--weights") {
       arguments.weights = value();
-    } else if (word == "--upright") {
-      arguments.upright = true;
+    } else if (word == "--turned") {
+      arguments.upright = false;
     } else if (word == "--curves") {
       arguments.curves = value();
     } else if (arguments.sequence.empty()) {

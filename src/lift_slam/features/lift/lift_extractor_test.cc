@@ -41,8 +41,8 @@ bool SameBytes(const FeatureSet& a, const FeatureSet& b) {
 
 TEST(LiftExtractor, NumberOfThreadsAndFramesBeforeChangeNothing) {
   const LiftWeights weights = RandomLiftWeights(LiftTopology::kF, 3);
-  LiftExtractor alone(weights, {.max_features = 40});
-  LiftExtractor together(weights, {.max_features = 40, .num_threads = 3});
+  LiftExtractor alone(weights, {.max_features = 40, .upright = false});
+  LiftExtractor together(weights, {.max_features = 40, .upright = false, .num_threads = 3});
   const GrayImage image = Texture(230, 170);
   const FeatureSet features = alone.Extract(image);
   EXPECT_EQ(features.keypoints.size(), 40U);
@@ -52,7 +52,7 @@ TEST(LiftExtractor, NumberOfThreadsAndFramesBeforeChangeNothing) {
 }
 
 TEST(LiftExtractor, KeypointsAreWithinTheImageWithScalesOfTheirLevels) {
-  LiftExtractor extractor(RandomLiftWeights(LiftTopology::kF, 3), {.max_features = 0});
+  LiftExtractor extractor(RandomLiftWeights(LiftTopology::kF, 3), {.max_features = 0, .upright = false});
   const FeatureSet features = extractor.Extract(Texture(230, 170));
   ASSERT_GT(features.keypoints.size(), 50U);
   ASSERT_EQ(features.descriptors.size(), features.keypoints.size());
@@ -102,7 +102,7 @@ TEST(LiftExtractor, UprightDescriptorsAreThoseOfTheirPatches) {
 TEST(LiftExtractor, WithoutOrientationNetworkOnlyUpright) {
   const LiftWeights weights = RandomLiftWeights(LiftTopology::kF, 3, /*with_orientation=*/false);
   try {
-    LiftExtractor extractor(weights, {});
+    LiftExtractor extractor(weights, {.upright = false});
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("lift.upright"));

@@ -18,9 +18,10 @@ struct LiftExtractorOptions {
   // Of the descriptor and the orientation, where the CPU has it (else the next higher one). By
   // docs/lift.md bfloat16 tells descriptors apart as well as float32, at about half the time.
   nn::Precision precision = nn::Precision::kBfloat16;
-  // Patches are not turned. Needed with weights that have no orientation network; descriptors of a
-  // camera that does not roll tell points apart better so.
-  bool upright = false;
+  // Patches are not turned. Unlike the authors of LIFT: frames of one camera seldom differ by much
+  // roll, and the orientation's errors cost a tenth to half of the inliers (docs/training.md). To be
+  // set to false for a camera that rolls; the weights must have an orientation network then.
+  bool upright = true;
   // Standard deviation of the position of a keypoint of sigma 1, pixels; grows with sigma. The
   // scores have about one pixel for a sigma of 2.
   double sigma_px = 0.65;

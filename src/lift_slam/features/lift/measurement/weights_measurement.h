@@ -23,7 +23,7 @@ struct DistanceMeasurement {
   int warps_per_image = 2;
   int max_pairs = 500;  // of keypoints, an image pair
   WarpOptions warp = {};
-  bool upright = false;
+  bool upright = true;
   std::uint64_t seed = 0;
   int num_threads = 1;
 };
