@@ -5,6 +5,7 @@
 #include <iostream>
 #include <new>
 
+#include "apps/benchmark_features_command.h"
 #include "apps/build_info.h"
 #include "apps/config_command.h"
 #include "apps/evaluate_command.h"
@@ -27,7 +28,7 @@ namespace {
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
     AddRunCommand,        AddEvaluateCommand, AddReportCommand, AddRenderCommand,
-    AddSynthesizeCommand, AddExtractCommand,  AddMatchCommand,  AddWeightsCommand,
+    AddSynthesizeCommand, AddExtractCommand,  AddMatchCommand,  AddBenchmarkFeaturesCommand, AddWeightsCommand,
     AddVocabularyCommand, AddConfigCommand,   AddInfoCommand,
 };
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "benchmarks/lift_quality/quality_tables.h"
+#include "benchmarks/features/quality_tables.h"
 
 namespace lift_slam {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/lift_quality/image_sets.h"
+#include "benchmarks/features/image_sets.h"
 
 namespace lift_slam {
 

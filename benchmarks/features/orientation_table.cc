@@ -1,11 +1,11 @@
-#include "benchmarks/lift_quality/orientation_table.h"
+#include "benchmarks/features/orientation_table.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/lift_quality/markdown_table.h"
+#include "benchmarks/features/markdown_table.h"
 #include "lift_slam/features/lift/measurement/descriptor_distances.h"
 #include "lift_slam/features/lift/patch_cutter.h"
 #include "lift_slam/features/lift/patch_sampling.h"

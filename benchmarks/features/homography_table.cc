@@ -1,4 +1,4 @@
-#include "benchmarks/lift_quality/homography_table.h"
+#include "benchmarks/features/homography_table.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -9,8 +9,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "benchmarks/lift_quality/extractor_variants.h"
-#include "benchmarks/lift_quality/markdown_table.h"
+#include "benchmarks/features/extractor_variants.h"
+#include "benchmarks/features/markdown_table.h"
 #include "lift_slam/features/brute_force_matcher.h"
 #include "lift_slam/features/lift/measurement/keypoint_pairs.h"
 #include "lift_slam/features/lift/patch_sampling.h"
@@ -150,7 +150,8 @@ std::vector<Figures> Measure(std::span<const ImageSet> sets, FeatureExtractor& e
 }  // namespace
 
 std::string HomographyTables(std::span<const NamedWeights> all, std::span<const ImageSet> sets,
-                             const QualityOptions& options) {
+                             const QualityOptions& options,
+                             std::vector<AccuracyCurve>& curves) {
   std::vector<std::string> names{"repeatability / matching score / homography, %"};
   for (const Change& change : kChanges) names.emplace_back(change.name);
   std::string by_change = Header(names);
@@ -166,8 +167,11 @@ std::string HomographyTables(std::span<const NamedWeights> all, std::span<const 
                                   share * sum.matching_score, share * sum.homographies));
       total.Add(sum);
     }
+    AccuracyCurve& curve = curves.emplace_back();
+    curve = {name, {kThresholdsPx.begin(), kThresholdsPx.end()}, {}};
     for (const double accuracy : total.accuracy) {
-      accuracies.push_back(fmt::format("{:.1f}", 100.0 * accuracy / std::max(1, total.images)));
+      curve.percent.push_back(100.0 * accuracy / std::max(1, total.images));
+      accuracies.push_back(fmt::format("{:.1f}", curve.percent.back()));
     }
     by_change += RowShown(cells);
     by_threshold += RowShown(accuracies);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/lift_quality/quality_tables.h"
+#include "benchmarks/features/quality_tables.h"
 #include "lift_slam/features/feature_extractor.h"
 
 namespace lift_slam {

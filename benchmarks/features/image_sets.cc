@@ -1,4 +1,4 @@
-#include "benchmarks/lift_quality/image_sets.h"
+#include "benchmarks/features/image_sets.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "benchmarks/lift_quality/quality_tables.h"
+#include "benchmarks/features/quality_tables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <map>
 #include <memory>
 
-#include "benchmarks/lift_quality/extractor_variants.h"
-#include "benchmarks/lift_quality/markdown_table.h"
+#include "benchmarks/features/extractor_variants.h"
+#include "benchmarks/features/markdown_table.h"
 #include "lift_slam/features/image_pair.h"
 #include "lift_slam/features/lift/keypoint_detection.h"
 #include "lift_slam/features/lift/lift_extractor.h"

@@ -1,4 +1,4 @@
-#include "benchmarks/lift_quality/extractor_variants.h"
+#include "benchmarks/features/extractor_variants.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/lift_quality/image_sets.h"
+#include "benchmarks/features/image_sets.h"
 #include "lift_slam/features/lift/lift_weights.h"
 #include "lift_slam/nn/precision.h"
 
