@@ -43,6 +43,10 @@ std::string HashOf(LiftWeights weights) {
   return Sha256Hex(bytes);
 }
 
+// The nearest wrong distances are those of a whole image; a search around a prediction meets only a
+// few of the wrong ones, and bounds this much looser gave a little more accurate runs.
+constexpr float kWindowFactor = 1.3F;
+
 int LevelOf(double sigma) {
   const auto level = std::lround(kLiftLevelsPerOctave * std::log2(sigma));
   return static_cast<int>(std::clamp<long>(level, 0, kLiftNumLevels - 1));
@@ -59,8 +63,8 @@ ThresholdRange LiftThresholds(const LiftWeights& weights, const LiftExtractorOpt
   ThresholdRange range{{2.0F, 3.0F}, {1.0F, 2.0F}, {2.0F, 3.0F}};
   if (weights.distances) {
     const auto& [matching, wrong] = *weights.distances;
-    const auto [low, middle] = std::minmax(matching[4], wrong[2]);
-    range = {{low, middle}, {low, middle}, {middle, std::max(middle, wrong[4])}};
+    const auto [low, middle] = std::minmax({matching[4], kWindowFactor * wrong[2]});
+    range = {{low, middle}, {low, middle}, {middle, std::max(middle, kWindowFactor * wrong[4])}};
   }
   if (options.low_threshold > 0.0) range.fixed.low = static_cast<float>(options.low_threshold);
   if (options.high_threshold > 0.0) range.fixed.high = static_cast<float>(options.high_threshold);

@@ -138,8 +138,8 @@ TEST(LiftDescriptorKind, TellsWeightsAndOrientationApart) {
 }
 
 void ExpectThresholds(const MatchingThresholds& actual, float low, float high) {
-  EXPECT_EQ(actual.low, low);
-  EXPECT_EQ(actual.high, high);
+  EXPECT_FLOAT_EQ(actual.low, low);
+  EXPECT_FLOAT_EQ(actual.high, high);
 }
 
 TEST(LiftThresholds, ComeFromOptionsThenWeightsThenThePaper) {
@@ -148,11 +148,12 @@ TEST(LiftThresholds, ComeFromOptionsThenWeightsThenThePaper) {
   ExpectThresholds(LiftThresholds(weights, {}).strict, 1.0F, 2.0F);
   ExpectThresholds(LiftThresholds(weights, {}).loose, 2.0F, 3.0F);
   weights.distances =
-      DistanceQuantiles{{0.1F, 0.2F, 0.5F, 0.9F, 1.3F}, {1.0F, 1.5F, 2.1F, 2.4F, 3.0F}};
-  ExpectThresholds(LiftThresholds(weights, {}).fixed, 1.3F, 2.1F);
-  ExpectThresholds(LiftThresholds(weights, {}).strict, 1.3F, 2.1F);
-  ExpectThresholds(LiftThresholds(weights, {}).loose, 2.1F, 3.0F);
-  ExpectThresholds(LiftThresholds(weights, {.low_threshold = 1.0}).fixed, 1.0F, 2.1F);
+      DistanceQuantiles{{0.1F, 0.2F, 0.5F, 0.9F, 1.1F}, {1.0F, 1.5F, 2.0F, 2.4F, 3.0F}};
+  // 1.3 times 2 and 3.
+  ExpectThresholds(LiftThresholds(weights, {}).fixed, 1.1F, 2.6F);
+  ExpectThresholds(LiftThresholds(weights, {}).strict, 1.1F, 2.6F);
+  ExpectThresholds(LiftThresholds(weights, {}).loose, 2.6F, 3.9F);
+  ExpectThresholds(LiftThresholds(weights, {.low_threshold = 1.0}).fixed, 1.0F, 2.6F);
 }
 
 // Weights whose matches lie farther apart than their impostors have no gap to put a threshold in.
