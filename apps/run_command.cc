@@ -28,6 +28,7 @@ struct RunArguments {
   std::string features, weights, vocabulary;  // empty: as the options say
   std::optional<int> seed;
   std::string mode;
+  MapFiles maps;
 };
 
 ProgramOptions EffectiveOptions(const RunArguments& arguments) {
@@ -79,6 +80,9 @@ FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
                        {"source", arguments.sequence.source},
                        {"calibration", info.camera->source}};
   if (info.ground_truth) finished.settings.emplace_back("ground truth", info.ground_truth->source);
+  if (!arguments.maps.load.empty()) {
+    finished.settings.emplace_back("loaded map", arguments.maps.load.string());
+  }
   for (std::size_t i = 0; i < record.corrections.size(); ++i) {
     const CalibrationCorrection& correction = record.corrections[i];
     if (correction.IsIdentity()) continue;
@@ -113,6 +117,7 @@ void PrintSummary(const FinishedRun& finished, const std::filesystem::path& outp
 
 void Run(const RunArguments& arguments) {
   ProgramOptions options = EffectiveOptions(arguments);
+  arguments.maps.Check();
   auto sequence = OpenSequence(arguments.sequence.source, arguments.sequence.Options());
   PrepareOutputFolder(arguments.output);
   RunLog log(arguments.output / "log.txt");
@@ -122,7 +127,8 @@ void Run(const RunArguments& arguments) {
   for (const std::string& warning : info.warnings) log.Warning(warning);
   DisableImageThreads();
 
-  const RunRecord record = RunSlam(std::move(sequence), options, arguments.output, log);
+  const RunRecord record =
+      RunSlam(std::move(sequence), options, arguments.output, arguments.maps, log);
   const FinishedRun finished = Conclude(arguments, info, record, options);
   WriteRunOutputs(finished, arguments.output, options.outputs);
   PrintSummary(finished, arguments.output);
@@ -154,6 +160,12 @@ void AddRunCommand(CLI::App& app) {
   arguments->config.AddTo(*command);
   command->add_option("--seed", arguments->seed, "Of everything random (default 0)");
   command->add_option("--mode", arguments->mode, "sequential or threaded (default)");
+  command->add_option("--save-map", arguments->maps.save, "Keep the run's maps (.liftmap)")
+      ->type_name("FILE");
+  command->add_option("--load-map", arguments->maps.load, "Go on in the maps of an earlier run")
+      ->type_name("FILE");
+  command->add_flag("--localization-only", arguments->maps.localization_only,
+                    "Poses in the loaded maps alone, which are not changed");
   command->footer(
       "Examples:\n"
       "  lift_slam run kitti/sequences/00 --output runs/00\n"
@@ -161,6 +173,8 @@ void AddRunCommand(CLI::App& app) {
       "  lift_slam run images/ --camera camera.yaml --output runs/x --set "
       "slam.orb.max_features=3000\n"
       "  lift_slam run kitti/sequences/00 --features lift --output runs/l\n"
+      "  lift_slam run lap1/ --save-map park.liftmap --output runs/lap1\n"
+      "  lift_slam run lap2/ --load-map park.liftmap --localization-only --output runs/lap2\n"
       "Exit codes: 0 done, 1 bad input, 3 ran but found no usable trajectory (all files written).");
   command->callback([arguments] { Run(*arguments); });
 }

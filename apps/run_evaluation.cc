@@ -6,7 +6,9 @@ namespace {
 
 Trajectory KeyframeTrajectory(const RunRecord& run) {
   Trajectory trajectory;
-  for (const KeyFrameRecord& keyframe : run.keyframes) trajectory.push_back(keyframe.pose);
+  for (const KeyFrameRecord& keyframe : run.keyframes) {
+    if (!keyframe.is_loaded) trajectory.push_back(keyframe.pose);
+  }
   return trajectory;
 }
 

@@ -36,7 +36,9 @@ void WriteTrajectories(const FinishedRun& finished, const fs::path& folder,
   WriteForms(finished.run.final_trajectory, folder / "trajectory", options);
   WriteForms(finished.run.online_trajectory, folder / "trajectory_online", options);
   Trajectory keyframes;
-  for (const KeyFrameRecord& keyframe : finished.run.keyframes) keyframes.push_back(keyframe.pose);
+  for (const KeyFrameRecord& keyframe : finished.run.keyframes) {
+    if (!keyframe.is_loaded) keyframes.push_back(keyframe.pose);
+  }
   WriteForms(keyframes, folder / "keyframes", options);
   const EvaluationResult& result = finished.evaluation.final_trajectory;
   const fs::path aligned = folder / "trajectory_aligned";

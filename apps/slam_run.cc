@@ -9,6 +9,7 @@
 #include "lift_slam/datasets/prefetching_sequence.h"
 #include "lift_slam/slam/feature_options.h"
 #include "lift_slam/slam/pipeline.h"
+#include "lift_slam/util/input_error.h"
 #include "lift_slam/util/timer.h"
 
 namespace lift_slam {
@@ -104,22 +105,83 @@ class RunObserver {
   FrameRefusal refusal_ = FrameRefusal::kNone;
 };
 
+std::uint64_t ChecksumOf(const VocabularyChoice& places) {
+  return places.vocabulary ? places.vocabulary->info().checksum : 0;
+}
+
+void LoadMaps(const std::filesystem::path& path, const FramePreparer& preparer,
+              const DescriptorKind& kind, const VocabularyChoice& places,
+              const SlamOptions& options, SlamSystem& system, RunLog& log) {
+  if (!places.vocabulary) {
+    throw InputError(
+        fmt::format("{}: a map is found again by visual words, expected a vocabulary: {}",
+                    path.string(), places.notice));
+  }
+  if (!options.loop_closing.relocalisation) {
+    throw InputError(fmt::format(
+        "{}: a map is found again by relocalisation, which slam.loop_closing.relocalisation "
+        "switches off",
+        path.string()));
+  }
+  const Timer timer;
+  MapFile file = ReadMapFile(path, preparer.view(), kind);
+  int keyframes = 0, points = 0;
+  for (const StoredMap& stored : file.maps) {
+    keyframes += stored.map->num_keyframes();
+    points += stored.map->num_points();
+  }
+  const std::size_t num_maps = file.maps.size();
+  const bool has_other_words = file.info.vocabulary_checksum != ChecksumOf(places);
+  system.LoadMaps(std::move(file));
+  log.Info(fmt::format("{}: {} map(s) with {} keyframes and {} points, loaded in {:.0f} ms{}",
+                       path.string(), num_maps, keyframes, points, timer.ElapsedMs(),
+                       has_other_words ? " (made with another vocabulary)" : ""));
+}
+
+void SaveMaps(const std::filesystem::path& path, const MapFileInfo& info, const RunRecord& record,
+              SlamSystem& system, RunLog& log) {
+  if (record.num_maps == 0) {
+    log.Warning(fmt::format("{}: not written, the run made no map", path.string()));
+    return;
+  }
+  system.SaveMaps(path, info);
+  log.Info(fmt::format("{}: {} map(s) saved, {:.1f} MB", path.string(), record.num_maps,
+                       1e-6 * static_cast<double>(std::filesystem::file_size(path))));
+}
+
 }  // namespace
 
+void MapFiles::Check() const {
+  if (localization_only && load.empty()) {
+    throw InputError("--localization-only: expected a map to localise in, --load-map FILE");
+  }
+  if (localization_only && !save.empty()) {
+    throw InputError("--save-map: there is nothing to save with --localization-only");
+  }
+  const std::filesystem::path folder = save.has_parent_path() ? save.parent_path() : ".";
+  if (!save.empty() && !std::filesystem::is_directory(folder)) {
+    throw InputError(
+        fmt::format("{}: no such folder, expected one to save the map in", folder.string()));
+  }
+}
+
 RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
-                  const std::filesystem::path& folder, RunLog& log) {
+                  const std::filesystem::path& folder, const MapFiles& maps, RunLog& log) {
   const SequenceInfo info = sequence->info();
   if (options.mode == RunMode::kThreaded) {
     sequence = std::make_unique<PrefetchingSequence>(std::move(sequence));
   }
   SlamOptions slam = options.slam;
   slam.seed = options.seed;
+  slam.localization_only = maps.localization_only;
   auto extractor = CreateFeatureExtractor(slam.features);
   if (const std::string notice = extractor->Notice(); !notice.empty()) log.Warning(notice);
-  const VocabularyChoice places = ChooseVocabulary(slam.loop_closing, extractor->descriptor_kind());
+  const DescriptorKind kind = extractor->descriptor_kind();
+  const VocabularyChoice places = ChooseVocabulary(slam.loop_closing, kind);
   if (!places.notice.empty()) log.Info("loop closing and relocalisation are off: " + places.notice);
   FramePreparer preparer(*info.camera, std::move(extractor), slam.alignment);
   SlamSystem system(*info.camera, preparer.view(), slam, places.vocabulary);
+  if (!maps.load.empty()) LoadMaps(maps.load, preparer, kind, places, slam, system, log);
   const StopSignal stop;
   RunObserver observer(folder, info.num_frames, system, log);
   const Timer timer;
@@ -135,6 +197,10 @@ RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& opti
   record.wall_time_s = timer.ElapsedMs() * 1e-3;
   record.place_recognition_notice = places.notice;
   record.interrupted = stop.Requested();
+  if (!maps.save.empty()) {
+    SaveMaps(maps.save, MakeMapFileInfo(*preparer.view(), kind, ChecksumOf(places)), record, system,
+             log);
+  }
   if (record.interrupted) log.Warning(fmt::format("ended early by {}", stop.Name()));
   return record;
 }

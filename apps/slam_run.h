@@ -8,9 +8,18 @@
 
 namespace lift_slam {
 
+// Maps kept from run to run.
+struct MapFiles {
+  std::filesystem::path load, save;  // empty: none
+  bool localization_only = false;    // in the loaded maps
+
+  // Throws InputError for arguments that contradict one another, or a file whose folder is missing.
+  void Check() const;
+};
+
 // Runs SLAM over a sequence with progress on stderr, each online pose written to the folder as it
 // comes, and refusals in the log. Ends early, with everything so far, on SIGINT or SIGTERM.
 RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
-                  const std::filesystem::path& folder, RunLog& log);
+                  const std::filesystem::path& folder, const MapFiles& maps, RunLog& log);
 
 }  // namespace lift_slam

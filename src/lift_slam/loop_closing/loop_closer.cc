@@ -52,6 +52,11 @@ void LoopCloser::Update(const Map& map) {
   }
 }
 
+void LoopCloser::Restore(const Map& map, std::vector<LoopEdge> loops) {
+  loops_ = std::move(loops);
+  Update(map);
+}
+
 LoopReport LoopCloser::Process(KeyFrameId keyframe, Map& map) {
   LoopReport report;
   const Timer detect_timer;

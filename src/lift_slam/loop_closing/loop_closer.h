@@ -60,6 +60,8 @@ class LoopCloser {
   // Keyframes of the map where a lost camera may be, best first.
   std::vector<KeyFrameId> FindSimilar(const FrameFeatures& features, const Map& map) const;
 
+  // Takes up a map that an earlier run has made, with the loops closed in it.
+  void Restore(const Map& map, std::vector<LoopEdge> loops);
   // Brings index and tree up to date with the map's keyframes.
   void Update(const Map& map);
   // An adjustment of the whole map that is under way is not merged any more.

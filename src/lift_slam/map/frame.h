@@ -57,6 +57,8 @@ struct KeyFrame {
   Rigid3d cam_from_world;
   std::vector<MapPointId> map_points;           // by feature; invalid id: none
   std::shared_ptr<const ImagePyramid> pyramid;  // null: none, or let go with age
+  // Of an earlier run, whose frame_index and timestamp_ns it has.
+  bool is_loaded = false;
 
   Eigen::Vector3d Center() const { return cam_from_world.TargetOriginInSource(); }
 };

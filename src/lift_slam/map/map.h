@@ -23,6 +23,14 @@ class Map {
   std::shared_ptr<const ViewModel> shared_view() const { return view_; }
   const CovisibilityGraph& covisibility() const { return covisibility_; }
 
+  struct Reference;
+  // All that a map is made of, as a file holds it. The keyframes' map_points are empty: the points'
+  // observations say the same.
+  struct Contents;
+  // The map with these contents; nothing when they contradict one another.
+  static std::unique_ptr<Map> FromContents(std::shared_ptr<const ViewModel> view,
+                                           Contents contents);
+
   // Keyframes whose image is kept: the newest ones, for new observations in them.
   static constexpr int kKeyFramesWithImage = 20;
 
@@ -44,6 +52,9 @@ class Map {
   std::vector<MapPointId> PointIds() const;
   // Without repetition, ascending.
   std::vector<MapPointId> PointsSeenBy(const std::vector<KeyFrameId>& keyframes) const;
+  // Ids ever given out.
+  std::size_t num_keyframe_ids() const { return keyframes_.size(); }
+  std::size_t num_point_ids() const { return points_.size(); }
   int num_keyframes() const { return num_keyframes_; }
   int num_points() const { return num_points_; }
   KeyFrameId newest_keyframe() const { return newest_keyframe_; }
@@ -71,6 +82,9 @@ class Map {
     Rigid3d cam_from_keyframe;
   };
   std::optional<Reference> ResolveReference(KeyFrameId id) const;
+  // The step of ResolveReference from an erased keyframe to the one that took its place, which may
+  // be erased itself.
+  const std::optional<Reference>& ReplacementOf(KeyFrameId erased) const;
 
   // Poses and points have been moved and scaled: `scale_of_keyframe`, by id, is the factor of the
   // lengths in each keyframe's camera frame. What erased keyframes left behind follows.
@@ -96,6 +110,9 @@ class Map {
   void AbsorbKeyFrames(Map& other, const IdOffset& offset, const Sim3d& world_from_other_world);
   void AbsorbPoints(Map& other, const IdOffset& offset, const Sim3d& world_from_other_world);
   void LetGoOfOldImages();
+  // For FromContents: false when the contents are wrong.
+  bool ReferencesEnd() const;
+  bool Connect(const MapPoint& point);
   void ShareWithObservers(const MapPoint& point, KeyFrameId keyframe, int change);
 
   std::shared_ptr<const ViewModel> view_;
@@ -106,6 +123,13 @@ class Map {
   KeyFrameId newest_keyframe_;
   int num_keyframes_ = 0;
   int num_points_ = 0;
+};
+
+struct Map::Contents {
+  std::vector<std::unique_ptr<KeyFrame>> keyframes;   // by id; null: erased
+  std::vector<std::unique_ptr<MapPoint>> points;      // by id; null: erased
+  std::vector<std::optional<Reference>> replaced_by;  // by keyframe id
+  KeyFrameId newest_keyframe;
 };
 
 }  // namespace lift_slam

@@ -22,6 +22,24 @@ int MapCollection::active_index() const {
   return -1;
 }
 
+void MapCollection::Load(std::vector<StoredMap> stored) {
+  LIFT_SLAM_CHECK(maps_.empty(), "{} maps before any is loaded", maps_.size());
+  const Timer timer;
+  for (StoredMap& map : stored) {
+    maps_.push_back(std::make_unique<MapSession>(std::move(map), options_, vocabulary_));
+  }
+  record_.stage_times_ms["load.index"].push_back(timer.ElapsedMs());
+}
+
+void MapCollection::Store(const std::filesystem::path& path, const MapFileInfo& info) {
+  std::vector<MapToStore> stored;
+  for (const auto& map : maps_) {
+    map->PrepareToStore(options_.final_bundle);
+    stored.push_back(map->ToStore());
+  }
+  WriteMapFile(path, info, stored);
+}
+
 void MapCollection::Begin(InitialMap initial, const GrayImage& image) {
   maps_.push_back(std::make_unique<MapSession>(std::move(initial), image, options_, vocabulary_));
   active_ = maps_.back().get();
@@ -153,7 +171,7 @@ void MapCollection::RenumberFrames(int younger, int older) {
 
 void MapCollection::AdjustAll() {
   for (const auto& map : maps_) {
-    if (map->map().num_keyframes() < 3) continue;
+    if (map->map().num_keyframes() < 3 || !map->is_of_this_run()) continue;
     map->AdjustFinally(options_.final_bundle, options_.self_calibration, record_.stage_times_ms);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,6 +22,11 @@ class MapCollection {
   MapSession* active() { return active_; }
   const MapSession* active() const { return active_; }
   int active_index() const;
+
+  // Takes up maps of an earlier run, before the first frame; none is active.
+  void Load(std::vector<StoredMap> stored);
+  // Writes all maps, as they are after the run, into a file. Call after all else.
+  void Store(const std::filesystem::path& path, const MapFileInfo& info);
 
   // Begins a map, which becomes active.
   void Begin(InitialMap initial, const GrayImage& image);

@@ -19,6 +19,16 @@ std::vector<int> MatchedFeatures(const Frame& frame) {
   return features;
 }
 
+// Of the sightings of the map's points that were to be expected, those that came true.
+double FoundShare(const Map& map) {
+  double visible = 0.0, found = 0.0;
+  for (const MapPointId id : map.PointIds()) {
+    visible += map.point(id).num_visible;
+    found += map.point(id).num_found;
+  }
+  return visible > 0.0 ? found / visible : 0.0;
+}
+
 }  // namespace
 
 MapSession::MapSession(InitialMap initial, const GrayImage& image, const SlamOptions& options,
@@ -40,6 +50,26 @@ MapSession::MapSession(InitialMap initial, const GrayImage& image, const SlamOpt
   if (loop_closer_) loop_closer_->Update(*map_);
   tracker_.Start(*map_, current, initial_velocity_);
   frames_.push_back({current.frame_index, second, Rigid3d()});
+}
+
+MapSession::MapSession(StoredMap stored, const SlamOptions& options,
+                       std::shared_ptr<const Vocabulary> vocabulary)
+    : map_(std::move(stored.map)),
+      tracker_(options.tracker, options.matching, static_cast<std::uint64_t>(options.seed)),
+      mapper_(options.local_mapper, options.local_bundle),
+      correction_options_(options.loop_closing.correction),
+      tracker_options_(options.tracker),
+      gray_(std::move(stored.gray_of_point)),
+      is_loaded_(true),
+      localization_only_(options.localization_only) {
+  gray_.resize(map_->num_point_ids(), kUnknownGray);
+  tracker_.ExpectFoundRatio(FoundShare(*map_));
+  if (!vocabulary) return;
+  loop_closer_.emplace(options.loop_closing, std::move(vocabulary),
+                       static_cast<std::uint64_t>(options.seed));
+  std::vector<LoopEdge> loops;
+  for (const auto& [query, candidate] : stored.loops) loops.push_back({query, candidate});
+  loop_closer_->Restore(*map_, std::move(loops));
 }
 
 void MapSession::Backfill(std::vector<Frame> waiting, const Frame& current) {
@@ -88,7 +118,7 @@ MapSession::Step MapSession::Relocalize(const PreparedFrame& prepared) {
 void MapSession::Finish(const PreparedFrame& prepared, Frame& frame, Step& step) {
   step.tracked_features = MatchedFeatures(frame);
   FrameReference reference{frame.frame_index, step.tracking.reference, Rigid3d()};
-  if (step.tracking.needs_keyframe) {
+  if (step.tracking.needs_keyframe && !localization_only_) {
     const Timer map_timer;
     InsertKeyFrame(prepared.input.image, frame, step);
     step.map_ms = map_timer.ElapsedMs();
@@ -103,6 +133,7 @@ void MapSession::Finish(const PreparedFrame& prepared, Frame& frame, Step& step)
 
 void MapSession::InsertKeyFrame(const GrayImage& image, Frame& frame, Step& step) {
   const KeyFrameId keyframe = map_->AddKeyFrame(frame);
+  has_new_keyframes_ = true;
   step.mapping = mapper_.Process(keyframe, tracker_.Thresholds(*map_).low, *map_);
   RememberGray(keyframe, image);
   tracker_.KeyFrameMapped(*map_, keyframe);
@@ -128,7 +159,9 @@ void MapSession::ScaleFrames(const std::vector<double>& scale_of_keyframe) {
 
 std::int64_t MapSession::FrameIndexOf(KeyFrameId keyframe) const {
   const auto reference = map_->ResolveReference(keyframe);
-  return reference ? map_->keyframe(reference->keyframe).frame_index : -1;
+  if (!reference) return -1;
+  const KeyFrame& standing = map_->keyframe(reference->keyframe);
+  return standing.is_loaded ? -1 : standing.frame_index;
 }
 
 LoopReport MapSession::FindNewestIn(const MapSession& other) const {
@@ -165,6 +198,7 @@ FusionCounts MapSession::Absorb(MapSession&& other, const PlaceAttempt& attempt,
   gray_.resize(static_cast<std::size_t>(offset.points), kUnknownGray);
   gray_.insert(gray_.end(), other.gray_.begin(), other.gray_.end());
   num_backfilled_ += other.num_backfilled_;
+  has_new_keyframes_ = has_new_keyframes_ || other.is_of_this_run();
   if (!query_is_mine) tracker_ = std::move(other.tracker_);
   tracker_.MapCorrected(*map_, merged.edge.query, query_is_mine ? 1.0 : world_from_other.scale);
   return fused;
@@ -190,6 +224,22 @@ void MapSession::AdjustFinally(const BundleOptions& bundle,
   const std::vector<double> scales = before.ChangesIn(*map_);
   map_->ScaleReferences(scales);
   ScaleFrames(scales);
+}
+
+void MapSession::PrepareToStore(const BundleOptions& bundle) {
+  if (correction_.IsIdentity()) return;
+  AdjustWholeMap(bundle, CalibrationCorrection(), *map_);
+  for (const MapPointId id : map_->PointIds()) map_->UpdateViewingRange(id);
+  correction_ = CalibrationCorrection();
+}
+
+MapToStore MapSession::ToStore() const {
+  MapToStore stored{*map_, gray_, {}};
+  if (!loop_closer_) return stored;
+  for (const LoopEdge& loop : loop_closer_->loops()) {
+    stored.loops.emplace_back(loop.query, loop.candidate);
+  }
+  return stored;
 }
 
 void MapSession::RememberGray(KeyFrameId keyframe_id, const GrayImage& image) {

@@ -8,6 +8,7 @@
 
 #include "lift_slam/local_mapping/local_mapper.h"
 #include "lift_slam/loop_closing/loop_closer.h"
+#include "lift_slam/map/map_file.h"
 #include "lift_slam/slam/frame_preparer.h"
 #include "lift_slam/slam/run_record.h"
 #include "lift_slam/slam/slam_options.h"
@@ -30,6 +31,9 @@ class MapSession {
 
   // Without a vocabulary no place is recognised.
   MapSession(InitialMap initial, const GrayImage& image, const SlamOptions& options,
+             std::shared_ptr<const Vocabulary> vocabulary);
+  // Takes up a map of an earlier run; no frame is tracked in it yet.
+  MapSession(StoredMap stored, const SlamOptions& options,
              std::shared_ptr<const Vocabulary> vocabulary);
 
   struct Step {
@@ -56,13 +60,22 @@ class MapSession {
   const Map& map() const { return *map_; }
   Map& mutable_map() { return *map_; }
   const std::vector<FrameReference>& frames() const { return frames_; }
-  // Keyframe that stands for a frame's place in a report; -1: gone.
+  // Keyframe that stands for a frame's place in a report; -1: gone, or of an earlier run.
   std::int64_t FrameIndexOf(KeyFrameId keyframe) const;
   // After the last frame: bundle adjustment of the whole map and self-calibration; the correction
   // is kept. A long map is calibrated first, on a part, and adjusted once. Frames keep their
   // places between the keyframes.
   void AdjustFinally(const BundleOptions& bundle, const SelfCalibrationOptions& calibration,
                      StageTimes& times_ms);
+  // Brings the map, which self-calibration may have moved, back to the calibration that was given
+  // and its pixels obey. Frames are not moved along: call after all else, before storing it.
+  void PrepareToStore(const BundleOptions& bundle);
+  // Refers to this session.
+  MapToStore ToStore() const;
+  // An earlier run has begun the map.
+  bool is_loaded() const { return is_loaded_; }
+  // The run has added to the map or moved it.
+  bool is_of_this_run() const { return !is_loaded_ || has_new_keyframes_; }
   const CalibrationCorrection& correction() const { return correction_; }
   int num_backfilled() const { return num_backfilled_; }
   // Grey value of the pixel a point was made from.
@@ -90,6 +103,9 @@ class MapSession {
   std::optional<Rigid3d> initial_velocity_;
   std::vector<std::uint8_t> gray_;  // by point id
   int num_backfilled_ = 0;
+  bool is_loaded_ = false;
+  bool has_new_keyframes_ = false;  // of this run
+  bool localization_only_ = false;
   CalibrationCorrection correction_;
 };
 

@@ -14,9 +14,13 @@ namespace {
 using NextFrame = std::function<std::optional<InputFrame>()>;
 
 RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const NextFrame& next) {
-  FramePreparer preparer(camera, CreateFeatureExtractor(options.slam.features),
-                         options.slam.alignment);
+  auto extractor = CreateFeatureExtractor(options.slam.features);
+  const DescriptorKind kind = extractor->descriptor_kind();
+  FramePreparer preparer(camera, std::move(extractor), options.slam.alignment);
   SlamSystem system(camera, preparer.view(), options.slam, options.vocabulary);
+  if (!options.load_maps.empty()) {
+    system.LoadMaps(ReadMapFile(options.load_maps, preparer.view(), kind));
+  }
   RunPipeline(
       options.mode,
       {[&] {
@@ -26,7 +30,11 @@ RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const N
        },
        [&](const FrameRecord& frame) { return !options.frame_done || options.frame_done(frame); }},
       preparer, system);
-  return system.Finish();
+  RunRecord record = system.Finish();
+  if (!options.save_maps.empty()) {
+    system.SaveMaps(options.save_maps, MakeMapFileInfo(*preparer.view(), kind, 0));
+  }
+  return record;
 }
 
 }  // namespace
@@ -43,7 +51,7 @@ SyntheticSequenceOptions SmallSequence(SyntheticPath path, int num_frames, doubl
 RunRecord RunSynthetic(const SyntheticSequenceOptions& sequence_options,
                        const TestRunOptions& options) {
   const SyntheticSequence sequence(sequence_options);
-  int index = 0;
+  int index = options.first_frame;
   return RunFrames(sequence.camera(), options, [&]() -> std::optional<InputFrame> {
     if (index == sequence.size()) return std::nullopt;
     InputFrame frame{index, sequence.TimestampNs(index), sequence.Render(index)};

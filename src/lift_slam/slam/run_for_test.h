@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -16,6 +17,8 @@ struct TestRunOptions {
   RunMode mode = RunMode::kSequential;
   SlamOptions slam;
   std::shared_ptr<const Vocabulary> vocabulary;  // null: no place is recognised
+  std::filesystem::path load_maps, save_maps;    // files; empty: none
+  int first_frame = 0;                           // of a synthetic sequence
   // Changes a frame before the pipeline sees it.
   std::function<void(InputFrame&)> change_frame;
   // As in PipelineCallbacks; nothing: run to the end.

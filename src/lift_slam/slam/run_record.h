@@ -55,6 +55,7 @@ struct PointRecord {
 struct KeyFrameRecord {
   TrajectoryPose pose;  // final
   int map_index = 0;
+  bool is_loaded = false;  // of an earlier run, whose frame index and time the pose has
 };
 
 enum class PlaceEventKind { kLoop, kMerge, kRelocalisation };

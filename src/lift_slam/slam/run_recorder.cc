@@ -75,6 +75,7 @@ void AddKeyFrames(const Map& map, int map_index, std::vector<int>& keyframe_rows
     row.pose.timestamp_ns = keyframe.timestamp_ns;
     row.pose.world_from_cam = Inverse(keyframe.cam_from_world);
     row.map_index = map_index;
+    row.is_loaded = keyframe.is_loaded;
     record.keyframes.push_back(row);
   }
 }

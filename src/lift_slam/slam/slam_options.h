@@ -14,7 +14,9 @@
 namespace lift_slam {
 
 struct SlamOptions {
-  int seed = 0;                   // of everything random; set by the caller, not by Visit
+  int seed = 0;  // of everything random; set by the caller, not by Visit
+  // Poses in loaded maps, which stay as they are, and no others; set by the caller, not by Visit.
+  bool localization_only = false;
   double recovery_time_s = 1.0;   // a lost map is tried again so long, then a new one is begun
   int min_keyframes_to_keep = 5;  // a map lost with fewer is thrown away ("reset")
   bool final_bundle_adjustment = true;  // of every kept map, when the input has ended

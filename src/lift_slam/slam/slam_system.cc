@@ -22,6 +22,11 @@ void SlamSystem::BeginInitializing() {
                                        static_cast<std::uint64_t>(options_.seed));
 }
 
+void SlamSystem::LoadMaps(MapFile file) {
+  maps_.Load(std::move(file.maps));
+  if (options_.localization_only) state_ = TrackingState::kLost;
+}
+
 const FrameRecord& SlamSystem::Process(const PreparedFrame& prepared) {
   FrameRecord record;
   record.frame_index = prepared.input.frame_index;
@@ -33,14 +38,25 @@ const FrameRecord& SlamSystem::Process(const PreparedFrame& prepared) {
     record_.stage_times_ms["extract"].push_back(prepared.extract_ms);
     if (maps_.active() != nullptr) {
       ProcessTracking(prepared, record);
-    } else if (maps_.maps().empty() || !Relocalize(prepared, record)) {
-      ProcessInitializing(prepared, record);
+    } else {
+      ProcessWithoutMap(prepared, record);
     }
   }
   record.state = state_;
   ++record_.refusals[static_cast<std::size_t>(record.refusal)];
   record_.frames.push_back(record);
   return record_.frames.back();
+}
+
+void SlamSystem::ProcessWithoutMap(const PreparedFrame& prepared, FrameRecord& record) {
+  if (!maps_.maps().empty() && Relocalize(prepared, record)) return;
+  if (!options_.localization_only) {
+    ProcessInitializing(prepared, record);
+    return;
+  }
+  record.refusal = FrameRefusal::kPlaceNotRecognized;
+  record.state = state_;
+  album_.Offer(prepared, record, {});
 }
 
 void SlamSystem::ProcessInitializing(const PreparedFrame& prepared, FrameRecord& record) {
@@ -118,8 +134,8 @@ void SlamSystem::HandleLost(const PreparedFrame& prepared, FrameRecord& record) 
   if (state_ == TrackingState::kTracking) ++record_.lost_events;
   state_ = TrackingState::kLost;
   if (Relocalize(prepared, record)) return;
-  const bool is_youngest = maps_.active() == maps_.maps().back().get();
-  if (is_youngest && maps_.active()->map().num_keyframes() < options_.min_keyframes_to_keep) {
+  const bool may_go = maps_.active() == maps_.maps().back().get() && !maps_.active()->is_loaded();
+  if (may_go && maps_.active()->map().num_keyframes() < options_.min_keyframes_to_keep) {
     // Lost shortly after start: the map is worth nothing, begin anew with this frame.
     ++record_.counters["tracking.maps_reset"];
     maps_.ThrowAwayActive();
@@ -128,7 +144,7 @@ void SlamSystem::HandleLost(const PreparedFrame& prepared, FrameRecord& record) 
     ++record_.counters["tracking.maps_left"];
     maps_.Leave();
   }
-  if (maps_.active() == nullptr) {
+  if (maps_.active() == nullptr && !options_.localization_only) {
     BeginInitializing();
     initializer_->Process(prepared.MakeFrame());
   }

@@ -20,11 +20,18 @@ class SlamSystem {
   SlamSystem(const Camera& camera, std::shared_ptr<const ViewModel> view,
              const SlamOptions& options, std::shared_ptr<const Vocabulary> vocabulary = nullptr);
 
+  // Takes up the maps of a file; see ReadMapFile. Before the first frame, which no map is then
+  // active for: frames are looked for in the loaded maps first. Needs a vocabulary.
+  void LoadMaps(MapFile file);
   // Frames must come in order of time.
   const FrameRecord& Process(const PreparedFrame& prepared);
 
   // Ends the run: final bundle adjustment, then everything there is to know about it.
   RunRecord Finish();
+  // After Finish: writes all maps into a file. Throws InputError when it cannot be written.
+  void SaveMaps(const std::filesystem::path& path, const MapFileInfo& info) {
+    maps_.Store(path, info);
+  }
 
   TrackingState state() const { return state_; }
   int num_keyframes() const {
@@ -38,6 +45,7 @@ class SlamSystem {
 
  private:
   void ProcessInitializing(const PreparedFrame& prepared, FrameRecord& record);
+  void ProcessWithoutMap(const PreparedFrame& prepared, FrameRecord& record);
   void ProcessTracking(const PreparedFrame& prepared, FrameRecord& record);
   // Looks for the frame by its words; false when no map shows it.
   bool Relocalize(const PreparedFrame& prepared, FrameRecord& record);

@@ -47,6 +47,9 @@ class Tracker {
   // that should be seen; otherwise everything is as before.
   TrackingResult Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar);
 
+  // The share of visible points that frames of this map see, before any was tracked here.
+  void ExpectFoundRatio(double ratio) { usual_found_ratio_ = ratio; }
+
   // The map has been corrected and `keyframe` is the last tracked frame: lengths in its camera
   // frame were multiplied by `scale`.
   void MapCorrected(const Map& map, KeyFrameId keyframe, double scale);

@@ -26,6 +26,7 @@ constexpr std::array<RefusalText, static_cast<std::size_t>(FrameRefusal::kCount)
     {"poor_reconstruction", "The first map did not survive bundle adjustment."},
     {"too_few_tracked", "Too few map points were found again in the image."},
     {"pose_rejected", "No pose agrees with enough map points."},
+    {"place_not_recognized", "The image shows no place of the loaded maps."},
     {"image_unreadable", "The image could not be decoded."},
     {"image_size_differs", "The image's size is not that of the calibration."},
     {"timestamp_not_increasing", "The timestamp is not after the one before."},

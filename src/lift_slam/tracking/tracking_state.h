@@ -19,8 +19,9 @@ enum class FrameRefusal {
   kTooFewPoints,        // too few points in front of both cameras
   kPoorReconstruction,  // bundle adjustment of the first map did not keep enough points
   // a map exists
-  kTooFewTracked,  // too few map points matched in the image
-  kPoseRejected,   // too few matches agree with any pose
+  kTooFewTracked,       // too few map points matched in the image
+  kPoseRejected,        // too few matches agree with any pose
+  kPlaceNotRecognized,  // localisation alone: no loaded map shows the image's place
   // before the tracker
   kImageUnreadable,
   kImageSizeDiffers,

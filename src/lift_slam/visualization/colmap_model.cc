@@ -65,7 +65,7 @@ void ColmapModel::WriteImages(std::ostream& stream) const {
     const Eigen::Vector3d& t = cam_from_world.translation;
     fmt::print(stream, "{} {:.12f} {:.12f} {:.12f} {:.12f} {:.12f} {:.12f} {:.12f} 1 {}\n", k + 1,
                q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z(),
-               image_name(keyframe.pose.frame_index));
+               (keyframe.is_loaded ? "earlier_run/" : "") + image_name(keyframe.pose.frame_index));
     const char* separator = "";
     for (const Point2d& point : index.by_keyframe[k]) {
       fmt::print(stream, "{}{:.3f} {:.3f} {}", separator, point.x, point.y, point.point3d_id);

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lift_slam/map/map_file.h"
+#include "lift_slam/map/map_file_records.h"
+
+namespace lift_slam {
+
+// Map points with observations, appearance and patch.
+RecordBytes PointsRecord(std::span<const MapPointId> ids, const MapToStore& stored);
+// Puts the points of a record at their ids.
+void TakePoints(MapRecordReader& reader, const DescriptorKind& features,
+                std::vector<std::unique_ptr<MapPoint>>& points, std::vector<std::uint8_t>& gray);
+
+}  // namespace lift_slam
