@@ -28,6 +28,7 @@ struct RunArguments {
   std::string features, weights, vocabulary;  // empty: as the options say
   std::optional<int> seed;
   std::string mode;
+  std::string distort;  // empty: images as they are
 };
 
 ProgramOptions EffectiveOptions(const RunArguments& arguments) {
@@ -45,6 +46,11 @@ ProgramOptions EffectiveOptions(const RunArguments& arguments) {
     config.overrides.push_back("slam.loop_closing.vocabulary=" + arguments.vocabulary);
   }
   return config.Read();
+}
+
+std::vector<ImageDistortion> Distortions(const RunArguments& arguments) {
+  if (arguments.distort.empty()) return {};
+  return ParseImageDistortions(arguments.distort);
 }
 
 bool IsKitti(SequenceFormat format) {
@@ -78,6 +84,9 @@ FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
                        {"seed", std::to_string(options.seed)},
                        {"source", arguments.sequence.source},
                        {"calibration", info.camera->source}};
+  if (!arguments.distort.empty()) {
+    finished.settings.emplace_back("distortion", ToText(Distortions(arguments)));
+  }
   if (info.ground_truth) finished.settings.emplace_back("ground truth", info.ground_truth->source);
   for (std::size_t i = 0; i < record.corrections.size(); ++i) {
     const CalibrationCorrection& correction = record.corrections[i];
@@ -113,6 +122,7 @@ void PrintSummary(const FinishedRun& finished, const std::filesystem::path& outp
 
 void Run(const RunArguments& arguments) {
   ProgramOptions options = EffectiveOptions(arguments);
+  const std::vector<ImageDistortion> distortions = Distortions(arguments);
   auto sequence = OpenSequence(arguments.sequence.source, arguments.sequence.Options());
   PrepareOutputFolder(arguments.output);
   RunLog log(arguments.output / "log.txt");
@@ -122,7 +132,8 @@ void Run(const RunArguments& arguments) {
   for (const std::string& warning : info.warnings) log.Warning(warning);
   DisableImageThreads();
 
-  const RunRecord record = RunSlam(std::move(sequence), options, arguments.output, log);
+  const RunRecord record =
+      RunSlam(std::move(sequence), options, arguments.output, log, distortions);
   const FinishedRun finished = Conclude(arguments, info, record, options);
   WriteRunOutputs(finished, arguments.output, options.outputs);
   PrintSummary(finished, arguments.output);
@@ -154,6 +165,11 @@ void AddRunCommand(CLI::App& app) {
   arguments->config.AddTo(*command);
   command->add_option("--seed", arguments->seed, "Of everything random (default 0)");
   command->add_option("--mode", arguments->mode, "sequential or threaded (default)");
+  command
+      ->add_option("--distort", arguments->distort,
+                   "Damage to every image before anything else, such as gamma=0.25, q1, "
+                   "salt-pepper=0.02 or several with commas ('lift_slam distort --help')")
+      ->type_name("SPEC");
   command->footer(
       "Examples:\n"
       "  lift_slam run kitti/sequences/00 --output runs/00\n"

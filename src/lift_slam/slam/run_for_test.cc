@@ -15,7 +15,7 @@ using NextFrame = std::function<std::optional<InputFrame>()>;
 
 RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const NextFrame& next) {
   FramePreparer preparer(camera, CreateFeatureExtractor(options.slam.features),
-                         options.slam.alignment);
+                         options.slam.alignment, options.slam.impulse_noise);
   SlamSystem system(camera, preparer.view(), options.slam, options.vocabulary);
   RunPipeline(
       options.mode,
