@@ -8,6 +8,7 @@
 #include "apps/benchmark_features_command.h"
 #include "apps/build_info.h"
 #include "apps/config_command.h"
+#include "apps/distort_command.h"
 #include "apps/evaluate_command.h"
 #include "apps/exit_code.h"
 #include "apps/extract_command.h"
@@ -27,9 +28,9 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
-    AddRunCommand,        AddEvaluateCommand, AddReportCommand, AddRenderCommand,
-    AddSynthesizeCommand, AddExtractCommand,  AddMatchCommand,  AddBenchmarkFeaturesCommand, AddWeightsCommand,
-    AddVocabularyCommand, AddConfigCommand,   AddInfoCommand,
+    AddRunCommand, AddEvaluateCommand, AddReportCommand, AddRenderCommand,
+    AddSynthesizeCommand, AddExtractCommand, AddMatchCommand, AddBenchmarkFeaturesCommand,
+    AddDistortCommand, AddWeightsCommand, AddVocabularyCommand, AddConfigCommand, AddInfoCommand,
 };
 
 void AddEverything(CLI::App& app) {

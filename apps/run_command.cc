@@ -29,6 +29,7 @@ struct RunArguments {
   std::optional<int> seed;
   std::string mode;
   MapFiles maps;
+  std::string distort;  // empty: images as they are
 };
 
 ProgramOptions EffectiveOptions(const RunArguments& arguments) {
@@ -46,6 +47,11 @@ ProgramOptions EffectiveOptions(const RunArguments& arguments) {
     config.overrides.push_back("slam.loop_closing.vocabulary=" + arguments.vocabulary);
   }
   return config.Read();
+}
+
+std::vector<ImageDistortion> Distortions(const RunArguments& arguments) {
+  if (arguments.distort.empty()) return {};
+  return ParseImageDistortions(arguments.distort);
 }
 
 bool IsKitti(SequenceFormat format) {
@@ -79,6 +85,9 @@ FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
                        {"seed", std::to_string(options.seed)},
                        {"source", arguments.sequence.source},
                        {"calibration", info.camera->source}};
+  if (!arguments.distort.empty()) {
+    finished.settings.emplace_back("distortion", ToText(Distortions(arguments)));
+  }
   if (info.ground_truth) finished.settings.emplace_back("ground truth", info.ground_truth->source);
   if (!arguments.maps.load.empty()) {
     finished.settings.emplace_back("loaded map", arguments.maps.load.string());
@@ -118,6 +127,7 @@ void PrintSummary(const FinishedRun& finished, const std::filesystem::path& outp
 void Run(const RunArguments& arguments) {
   ProgramOptions options = EffectiveOptions(arguments);
   arguments.maps.Check();
+  const std::vector<ImageDistortion> distortions = Distortions(arguments);
   auto sequence = OpenSequence(arguments.sequence.source, arguments.sequence.Options());
   PrepareOutputFolder(arguments.output);
   RunLog log(arguments.output / "log.txt");
@@ -128,7 +138,7 @@ void Run(const RunArguments& arguments) {
   DisableImageThreads();
 
   const RunRecord record =
-      RunSlam(std::move(sequence), options, arguments.output, arguments.maps, log);
+      RunSlam(std::move(sequence), options, arguments.output, arguments.maps, log, distortions);
   const FinishedRun finished = Conclude(arguments, info, record, options);
   WriteRunOutputs(finished, arguments.output, options.outputs);
   PrintSummary(finished, arguments.output);
@@ -166,6 +176,11 @@ void AddRunCommand(CLI::App& app) {
       ->type_name("FILE");
   command->add_flag("--localization-only", arguments->maps.localization_only,
                     "Poses in the loaded maps alone, which are not changed");
+  command
+      ->add_option("--distort", arguments->distort,
+                   "Damage to every image before anything else, such as gamma=0.25, q1, "
+                   "salt-pepper=0.02 or several with commas ('lift_slam distort --help')")
+      ->type_name("SPEC");
   command->footer(
       "Examples:\n"
       "  lift_slam run kitti/sequences/00 --output runs/00\n"

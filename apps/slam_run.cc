@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "apps/online_trajectory_writer.h"
 #include "apps/progress_bar.h"
 #include "apps/stop_signal.h"
@@ -64,6 +66,11 @@ class RunObserver {
       state_ = frame.state;
       refusal_ = frame.refusal;
     }
+    if (frame.num_impulses > 0 && !std::exchange(noise_said_, true)) {
+      log_.Warning(
+          fmt::format("frame {}: salt-and-pepper noise, {} pixels taken out; so in later frames",
+                      frame.frame_index, frame.num_impulses));
+    }
     LogPlaces(frame.frame_index);
     Update();
     bar_.Update(progress_);
@@ -99,6 +106,7 @@ class RunObserver {
   const SlamSystem& system_;
   RunLog& log_;
   std::size_t num_place_events_ = 0;  // logged
+  bool noise_said_ = false;
   ProgressBar bar_;
   Progress progress_;
   TrackingState state_ = TrackingState::kInitializing;
@@ -166,7 +174,8 @@ void MapFiles::Check() const {
 }
 
 RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
-                  const std::filesystem::path& folder, const MapFiles& maps, RunLog& log) {
+                  const std::filesystem::path& folder, const MapFiles& maps, RunLog& log,
+                  const std::vector<ImageDistortion>& distortions) {
   const SequenceInfo info = sequence->info();
   if (options.mode == RunMode::kThreaded) {
     sequence = std::make_unique<PrefetchingSequence>(std::move(sequence));
@@ -179,14 +188,22 @@ RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& opti
   const DescriptorKind kind = extractor->descriptor_kind();
   const VocabularyChoice places = ChooseVocabulary(slam.loop_closing, kind);
   if (!places.notice.empty()) log.Info("loop closing and relocalisation are off: " + places.notice);
-  FramePreparer preparer(*info.camera, std::move(extractor), slam.alignment);
+  FramePreparer preparer(*info.camera, std::move(extractor), slam.alignment, slam.impulse_noise);
   SlamSystem system(*info.camera, preparer.view(), slam, places.vocabulary);
   if (!maps.load.empty()) LoadMaps(maps.load, preparer, kind, places, slam, system, log);
   const StopSignal stop;
   RunObserver observer(folder, info.num_frames, system, log);
   const Timer timer;
   RunPipeline(options.mode,
-              {[&] { return NextInput(*sequence, stop, log); },
+              {[&] {
+                 auto input = NextInput(*sequence, stop, log);
+                 if (input && !distortions.empty()) {
+                   input->image =
+                       Distort(input->image, distortions, static_cast<std::uint64_t>(options.seed),
+                               input->frame_index);
+                 }
+                 return input;
+               },
                [&](const FrameRecord& frame) {
                  observer.FrameDone(frame);
                  return !stop.Requested();

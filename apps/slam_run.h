@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "apps/program_options.h"
 #include "apps/run_log.h"
 #include "lift_slam/datasets/sequence.h"
+#include "lift_slam/image/image_distortion.h"
 
 namespace lift_slam {
 
@@ -18,8 +20,10 @@ struct MapFiles {
 };
 
 // Runs SLAM over a sequence with progress on stderr, each online pose written to the folder as it
-// comes, and refusals in the log. Ends early, with everything so far, on SIGINT or SIGTERM.
+// comes, and refusals in the log. Every image goes through the distortions first. Ends early, with
+// everything so far, on SIGINT or SIGTERM.
 RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
-                  const std::filesystem::path& folder, const MapFiles& maps, RunLog& log);
+                  const std::filesystem::path& folder, const MapFiles& maps, RunLog& log,
+                  const std::vector<ImageDistortion>& distortions = {});
 
 }  // namespace lift_slam

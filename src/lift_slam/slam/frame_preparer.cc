@@ -42,9 +42,11 @@ PyramidShape ShapeForPatches(const ViewModel& view) {
 }  // namespace
 
 FramePreparer::FramePreparer(const Camera& camera, std::unique_ptr<FeatureExtractor> extractor,
-                             const PatchAlignmentOptions& alignment)
+                             const PatchAlignmentOptions& alignment,
+                             const ImpulseNoiseOptions& impulse_noise)
     : extractor_(std::move(extractor)),
       view_(MakeView(camera, *extractor_, alignment)),
+      impulse_noise_(impulse_noise),
       pyramid_shape_(ShapeForPatches(*view_)) {}
 
 Frame PreparedFrame::MakeFrame() const {
@@ -56,6 +58,11 @@ Frame PreparedFrame::MakeFrame() const {
 PreparedFrame FramePreparer::Prepare(InputFrame input) {
   PreparedFrame prepared;
   const Timer timer;
+  if (input.refusal == FrameRefusal::kNone && impulse_noise_.remove) {
+    const ImpulseNoiseResult clean = RemoveImpulseNoise(input.image, impulse_noise_);
+    input.image = clean.image;
+    prepared.num_impulses = clean.num_replaced;
+  }
   if (input.refusal == FrameRefusal::kNone) {
     FeatureSet features = extractor_->Extract(input.image);
     std::vector<Eigen::Vector2f> undistorted;

@@ -16,7 +16,8 @@ using NextFrame = std::function<std::optional<InputFrame>()>;
 RunRecord RunFrames(const Camera& camera, const TestRunOptions& options, const NextFrame& next) {
   auto extractor = CreateFeatureExtractor(options.slam.features);
   const DescriptorKind kind = extractor->descriptor_kind();
-  FramePreparer preparer(camera, std::move(extractor), options.slam.alignment);
+  FramePreparer preparer(camera, std::move(extractor), options.slam.alignment,
+                         options.slam.impulse_noise);
   SlamSystem system(camera, preparer.view(), options.slam, options.vocabulary);
   if (!options.load_maps.empty()) {
     system.LoadMaps(ReadMapFile(options.load_maps, preparer.view(), kind));

@@ -27,6 +27,7 @@ struct FrameRecord {
   // Which map of the run holds the final pose; -1: none (no pose, or its map was thrown away).
   int map_index = -1;
   bool is_keyframe = false;
+  int num_impulses = 0;  // pixels of salt-and-pepper noise that were taken out
   int num_features = 0;
   int num_matches = 0;  // map points matched before the final pose optimisation
   int num_inliers = 0;  // map points that agree with the pose

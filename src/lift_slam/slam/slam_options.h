@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "lift_slam/image/impulse_noise.h"
 #include "lift_slam/image/patch_alignment.h"
 #include "lift_slam/local_mapping/local_mapper_options.h"
 #include "lift_slam/loop_closing/loop_closing_options.h"
@@ -20,6 +21,7 @@ struct SlamOptions {
   double recovery_time_s = 1.0;   // a lost map is tried again so long, then a new one is begun
   int min_keyframes_to_keep = 5;  // a map lost with fewer is thrown away ("reset")
   bool final_bundle_adjustment = true;  // of every kept map, when the input has ended
+  ImpulseNoiseOptions impulse_noise;
   FeatureOptions features;
   MatchingOptions matching;
   PatchAlignmentOptions alignment;
@@ -38,6 +40,7 @@ struct SlamOptions {
                   "a map lost with fewer keyframes is thrown away");
     visitor.Field("final_bundle_adjustment", final_bundle_adjustment,
                   "adjust whole maps when the input has ended");
+    visitor.Group("impulse_noise", impulse_noise, "salt-and-pepper noise of the images");
     visitor.Field("features", features.type, kFeatureTypeNames, "kind of features");
     visitor.Field("lift_weights", features.lift_weights,
                   "file of LIFT's weights (.safetensors); empty: those that ship");

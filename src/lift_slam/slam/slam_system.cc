@@ -33,6 +33,8 @@ const FrameRecord& SlamSystem::Process(const PreparedFrame& prepared) {
   record.timestamp_ns = prepared.input.timestamp_ns;
   record.extract_ms = prepared.extract_ms;
   record.refusal = prepared.input.refusal;
+  record.num_impulses = prepared.num_impulses;
+  if (record.num_impulses > 0) ++record_.counters["prepare.frames_with_impulse_noise"];
   if (prepared.features) {
     record.num_features = prepared.features->size();
     record_.stage_times_ms["extract"].push_back(prepared.extract_ms);
