@@ -145,8 +145,8 @@ void AddOptions(CLI::App& command, Arguments& arguments) {
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command.add_option("--tables", arguments.tables, "Which tables")
-      ->check(CLI::IsMember({"descriptors", "matching", "repeatability", "orientation",
-                             "homography", "keypoints"}));
+      ->check(CLI::IsMember(
+          {"descriptors", "matching", "repeatability", "orientation", "homography", "keypoints"}));
   command.add_option("--precisions", arguments.precisions, "float32, bfloat16, int8")
       ->check(CLI::IsMember({"float32", "bfloat16", "int8"}));
   command.add_option("--patches", arguments.patches,
@@ -164,9 +164,10 @@ void AddOptions(CLI::App& command, Arguments& arguments) {
 }  // namespace
 
 void AddBenchmarkFeaturesCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "benchmark-features", "Compare LIFT weights, ORB and SIFT on real images: repeatability, "
-                            "matching, FPR95, homographies");
+  CLI::App* command =
+      app.add_subcommand("benchmark-features",
+                         "Compare LIFT weights, ORB and SIFT on real images: repeatability, "
+                         "matching, FPR95, homographies");
   const auto arguments = std::make_shared<Arguments>();
   if (const char* data = std::getenv("LIFT_SLAM_DATA")) arguments->data = data;
   AddOptions(*command, *arguments);

@@ -84,8 +84,8 @@ void ExtractImages(const ExtractArguments& arguments) {
   CheckNames(arguments.images);
   const LiftWeights weights = ReadLiftWeightsOrDefault(arguments.weights);
   if (!weights.orientation && !arguments.options.upright) {
-    throw InputError(
-        fmt::format("the weights '{}' have no orientation network; leave --turned out", weights.name));
+    throw InputError(fmt::format("the weights '{}' have no orientation network; leave --turned out",
+                                 weights.name));
   }
   LiftExtractor extractor(weights, arguments.options);
   if (!extractor.precision().reason.empty()) {

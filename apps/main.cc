@@ -28,9 +28,10 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
-    AddRunCommand, AddEvaluateCommand, AddReportCommand, AddRenderCommand,
-    AddSynthesizeCommand, AddExtractCommand, AddMatchCommand, AddBenchmarkFeaturesCommand,
-    AddDistortCommand, AddWeightsCommand, AddVocabularyCommand, AddConfigCommand, AddInfoCommand,
+    AddRunCommand,        AddEvaluateCommand, AddReportCommand,     AddRenderCommand,
+    AddSynthesizeCommand, AddExtractCommand,  AddMatchCommand,      AddBenchmarkFeaturesCommand,
+    AddDistortCommand,    AddWeightsCommand,  AddVocabularyCommand, AddConfigCommand,
+    AddInfoCommand,
 };
 
 void AddEverything(CLI::App& app) {

@@ -14,8 +14,8 @@ namespace {
 NamedExtractor MakeLift(const PairFeatures& features) {
   const LiftWeights weights = ReadLiftWeightsOrDefault(features.weights);
   if (!weights.orientation && !features.lift.upright) {
-    throw InputError(
-        fmt::format("the weights '{}' have no orientation network; leave --turned out", weights.name));
+    throw InputError(fmt::format("the weights '{}' have no orientation network; leave --turned out",
+                                 weights.name));
   }
   auto extractor = std::make_unique<LiftExtractor>(weights, features.lift);
   std::string title =

@@ -113,7 +113,8 @@ TEST_F(MeasureWeights, BadInputIsOneSentence) {
        {"calibrate" + files, "calibrate " + Path("none.png") + files,
         "calibrate " + Path("tiny.png") + files, "calibrate " + Path("grey.png") + files,
         "calibrate --patches 0 " + Path("0.png") + files, "distances --upright" + files,
-        "distances --turned " + Path("0.png") + files, "distances --upright " + Path("grey.png") + files,
+        "distances --turned " + Path("0.png") + files,
+        "distances --upright " + Path("grey.png") + files,
         "distances --upright --pair " + Path("0.png") + files}) {
     const Outcome outcome = RunProgram("weights " + arguments);
     EXPECT_EQ(outcome.exit_code, 1) << arguments;

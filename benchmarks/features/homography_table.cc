@@ -150,8 +150,7 @@ std::vector<Figures> Measure(std::span<const ImageSet> sets, FeatureExtractor& e
 }  // namespace
 
 std::string HomographyTables(std::span<const NamedWeights> all, std::span<const ImageSet> sets,
-                             const QualityOptions& options,
-                             std::vector<AccuracyCurve>& curves) {
+                             const QualityOptions& options, std::vector<AccuracyCurve>& curves) {
   std::vector<std::string> names{"repeatability / matching score / homography, %"};
   for (const Change& change : kChanges) names.emplace_back(change.name);
   std::string by_change = Header(names);

@@ -22,7 +22,6 @@ struct AccuracyCurve {
 // the mean matching accuracy: of all mutual nearest neighbours those within so many pixels. For
 // ORB, SIFT and all weights. What the second table shows is added to `curves`.
 std::string HomographyTables(std::span<const NamedWeights> all, std::span<const ImageSet> sets,
-                             const QualityOptions& options,
-                             std::vector<AccuracyCurve>& curves);
+                             const QualityOptions& options, std::vector<AccuracyCurve>& curves);
 
 }  // namespace lift_slam

@@ -78,8 +78,7 @@ class Merge {
     MovePoints();
     for (const KeyFrameId id : map_.KeyFrameIds()) {
       const Sim3d& motion = motion_[id.index()];
-      map_.SetPose(
-          id, Inverse(TransformWorld(Inverse(map_.keyframe(id).cam_from_world), motion)));
+      map_.SetPose(id, Inverse(TransformWorld(Inverse(map_.keyframe(id).cam_from_world), motion)));
     }
     std::vector<double> scales(motion_.size(), 1.0);
     for (std::size_t i = 0; i < scales.size(); ++i) {
@@ -97,7 +96,8 @@ class Merge {
       const BundleObservation& observation = before_.observations[i];
       const MapPointId point = index_.points[static_cast<std::size_t>(observation.point)];
       const KeyFrameId keyframe = index_.keyframes[static_cast<std::size_t>(observation.camera)];
-      const bool is_there = map_.FindPoint(point) != nullptr && map_.FindKeyFrame(keyframe) != nullptr;
+      const bool is_there =
+          map_.FindPoint(point) != nullptr && map_.FindKeyFrame(keyframe) != nullptr;
       if (!is_there || map_.point(point).FeatureIn(keyframe) < 0) continue;
       map_.RemoveObservation(point, keyframe);
       ++count;
@@ -117,9 +117,8 @@ class Merge {
       }
       if (!known.valid()) continue;
       const auto camera = static_cast<std::size_t>(index_.CameraOf(known));
-      motion_[id.index()] =
-          NewFromOldWorld(before_.cams_from_world[camera],
-                          solved_.problem.cams_from_world[camera], scales[camera]);
+      motion_[id.index()] = NewFromOldWorld(
+          before_.cams_from_world[camera], solved_.problem.cams_from_world[camera], scales[camera]);
     }
   }
 
@@ -136,9 +135,9 @@ class Merge {
       const int i = index_of[id.index()];
       const bool is_unmoved =
           i >= 0 && before_.points[static_cast<std::size_t>(i)] == point.position;
-      point.position = is_unmoved ? solved_.problem.points[static_cast<std::size_t>(i)]
-                                  : motion_[point.observations.front().keyframe.index()] *
-                                        point.position;
+      point.position = is_unmoved
+                           ? solved_.problem.points[static_cast<std::size_t>(i)]
+                           : motion_[point.observations.front().keyframe.index()] * point.position;
     }
   }
 
@@ -161,8 +160,7 @@ void LoopBundle::Begin(const Map& map) {
   running_.reset(new Running);
   running_->before = MakeBundleProblem(map.KeyFrameIds(), {}, map, running_->index);
   running_->keyframes_left = options_.merge_after_keyframes;
-  running_->result =
-      std::async(std::launch::async, Solve, running_->before, options_.bundle);
+  running_->result = std::async(std::launch::async, Solve, running_->before, options_.bundle);
 }
 
 std::optional<LoopBundleReport> LoopBundle::KeyFrameAdded(const SpanningTree& tree, Map& map) {

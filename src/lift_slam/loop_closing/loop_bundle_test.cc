@@ -28,8 +28,8 @@ struct CorrectedLoop : DriftedLoop {
   // The camera stands still; the new keyframe sees what the newest one sees.
   KeyFrameId AddKeyFrameAtTheEnd() {
     const KeyFrame& newest = map.keyframe(map.newest_keyframe());
-    Frame frame = scene.MakeFrame(static_cast<int>(map.newest_keyframe().index()) + 1,
-                                  true_poses.back());
+    Frame frame =
+        scene.MakeFrame(static_cast<int>(map.newest_keyframe().index()) + 1, true_poses.back());
     frame.cam_from_world = newest.cam_from_world;
     const std::vector<MapPointId> points = newest.map_points;
     const KeyFrameId id = map.AddKeyFrame(frame);

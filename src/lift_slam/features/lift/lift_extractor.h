@@ -53,10 +53,10 @@ std::unique_ptr<FeatureExtractor> CreateLiftExtractor(const LiftWeights& weights
 DescriptorKind LiftDescriptorKind(const LiftWeights& weights, bool upright);
 
 // From the distances measured with the weights: the fixed ones are the 95 % quantile of those that
-// match and 1.3 times the median of the nearest that do not. While tracking, the low one moves between those
-// two and the high one from the latter to 1.3 times the 95 % quantile of those that do not match: a
-// search around a prediction meets only a few of them.
-// Without measured distances: the paper's, from 1 and 2 (EuRoC) to 2 and 3 (KITTI), fixed at 2, 3.
+// match and 1.3 times the median of the nearest that do not. While tracking, the low one moves
+// between those two and the high one from the latter to 1.3 times the 95 % quantile of those that
+// do not match: a search around a prediction meets only a few of them. Without measured distances:
+// the paper's, from 1 and 2 (EuRoC) to 2 and 3 (KITTI), fixed at 2, 3.
 ThresholdRange LiftThresholds(const LiftWeights& weights, const LiftExtractorOptions& options);
 
 }  // namespace lift_slam

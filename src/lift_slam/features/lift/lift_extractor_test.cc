@@ -52,7 +52,8 @@ TEST(LiftExtractor, NumberOfThreadsAndFramesBeforeChangeNothing) {
 }
 
 TEST(LiftExtractor, KeypointsAreWithinTheImageWithScalesOfTheirLevels) {
-  LiftExtractor extractor(RandomLiftWeights(LiftTopology::kF, 3), {.max_features = 0, .upright = false});
+  LiftExtractor extractor(RandomLiftWeights(LiftTopology::kF, 3),
+                          {.max_features = 0, .upright = false});
   const FeatureSet features = extractor.Extract(Texture(230, 170));
   ASSERT_GT(features.keypoints.size(), 50U);
   ASSERT_EQ(features.descriptors.size(), features.keypoints.size());

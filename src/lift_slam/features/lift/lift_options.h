@@ -19,8 +19,8 @@ struct LiftExtractorOptions {
   // docs/lift.md bfloat16 tells descriptors apart as well as float32, at about half the time.
   nn::Precision precision = nn::Precision::kBfloat16;
   // Patches are not turned. Unlike the authors of LIFT: frames of one camera seldom differ by much
-  // roll, and the orientation's errors cost a tenth to half of the inliers (docs/training.md). To be
-  // set to false for a camera that rolls; the weights must have an orientation network then.
+  // roll, and the orientation's errors cost a tenth to half of the inliers (docs/training.md). To
+  // be set to false for a camera that rolls; the weights must have an orientation network then.
   bool upright = true;
   // Standard deviation of the position of a keypoint of sigma 1, pixels; grows with sigma. The
   // scores have about one pixel for a sigma of 2.
