@@ -50,7 +50,7 @@ TEST_F(DistortCommand, DrawsTheConditions) {
 TEST_F(DistortCommand, BadArgumentsAreExplained) {
   const std::pair<std::string, std::string> cases[] = {
       {Path("a.png") + " --distort fog --output " + Path("out"), "'fog' is unknown"},
-      {Path("a.png") + " --distort q1", "go together"},
+      {Path("a.png") + " --distort q1", "--output FOLDER with --distort SPEC"},
       {Path("a.png"), "--figure FILE.png"},
       {Path("a.png") + " --figure x.jpg", "must end in .png"},
       {Path("none.png") + " --distort q1 --output " + Path("out"), "no such file"},
