@@ -5,6 +5,7 @@
 #include <iostream>
 #include <new>
 
+#include "apps/benchmark_command.h"
 #include "apps/benchmark_features_command.h"
 #include "apps/build_info.h"
 #include "apps/config_command.h"
@@ -28,10 +29,13 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
-    AddRunCommand,        AddEvaluateCommand, AddReportCommand,     AddRenderCommand,
-    AddSynthesizeCommand, AddExtractCommand,  AddMatchCommand,      AddBenchmarkFeaturesCommand,
-    AddDistortCommand,    AddWeightsCommand,  AddVocabularyCommand, AddConfigCommand,
-    AddInfoCommand,
+    AddRunCommand,     AddEvaluateCommand,
+    AddReportCommand,  AddBenchmarkCommand,
+    AddRenderCommand,  AddSynthesizeCommand,
+    AddExtractCommand, AddMatchCommand,
+    AddDistortCommand, AddBenchmarkFeaturesCommand,
+    AddWeightsCommand, AddVocabularyCommand,
+    AddConfigCommand,  AddInfoCommand,
 };
 
 void AddEverything(CLI::App& app) {

@@ -47,23 +47,24 @@ std::string MapText(const Progress& progress) {
 std::string BarLine(const Progress& progress, double elapsed_s) {
   const double rate = FramesPerSecond(progress, elapsed_s);
   if (!progress.frames_total) {
-    return fmt::format("{} frames, {:.1f}/s, {}", progress.frames_done, rate, MapText(progress));
+    return fmt::format("{} {}, {:.1f}/s, {}", progress.frames_done, progress.unit, rate,
+                       MapText(progress));
   }
   const std::int64_t total = std::max<std::int64_t>(*progress.frames_total, 1);
   const std::int64_t done = std::clamp<std::int64_t>(progress.frames_done, 0, total);
   const auto filled = static_cast<std::size_t>(kBarCells * done / total);
   const std::string left =
       rate > 0.0 ? Clock(static_cast<double>(total - done) / rate) : std::string("?");
-  return fmt::format("[{}{}] {}/{} frames, {:.1f}/s, {} left, {}", std::string(filled, '#'),
+  return fmt::format("[{}{}] {}/{} {}, {:.1f}/s, {} left, {}", std::string(filled, '#'),
                      std::string(kBarCells - filled, '-'), progress.frames_done,
-                     *progress.frames_total, rate, left, MapText(progress));
+                     *progress.frames_total, progress.unit, rate, left, MapText(progress));
 }
 
 std::string SummaryLine(const Progress& progress, double elapsed_s) {
   std::string frames = std::to_string(progress.frames_done);
   if (progress.frames_total) frames += fmt::format("/{}", *progress.frames_total);
-  return fmt::format("{} frames in {:.1f} s ({:.1f} frames/s), {}", frames, elapsed_s,
-                     FramesPerSecond(progress, elapsed_s), MapText(progress));
+  return fmt::format("{} {} in {:.1f} s ({:.1f} {}/s), {}", frames, progress.unit, elapsed_s,
+                     FramesPerSecond(progress, elapsed_s), progress.unit, MapText(progress));
 }
 
 }  // namespace

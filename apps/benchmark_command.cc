@@ -1,0 +1,124 @@
+#include "apps/benchmark_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "apps/benchmark_jobs.h"
+#include "apps/benchmark_plan.h"
+#include "apps/benchmark_tables.h"
+#include "apps/exit_code.h"
+#include "lift_slam/util/file.h"
+#include "lift_slam/util/input_error.h"
+#include "lift_slam/util/number_text.h"
+
+namespace lift_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BenchmarkArguments {
+  std::vector<std::string> words;  // SUITE, "plan SUITE", "run-job K" or "merge"
+  BenchmarkRequest request;
+  fs::path output, publications = LIFT_SLAM_PUBLICATIONS;
+  int jobs = 1;
+};
+
+void Merge(const BenchmarkArguments& arguments) {
+  const BenchmarkPlan plan = ReadBenchmarkPlan(arguments.output);
+  const BenchmarkTables tables =
+      MakeBenchmarkTables(plan, arguments.output, arguments.publications);
+  WriteTextAtomically(arguments.output / "tables.md", tables.markdown);
+  WriteTextAtomically(arguments.output / "tables.csv", tables.csv);
+  WriteTextAtomically(arguments.output / "tables.tex", tables.latex);
+  WriteTextAtomically(arguments.output / "tables.html", tables.html);
+  std::cout << tables.markdown
+            << fmt::format("tables      {}\n", (arguments.output / "tables.html").string());
+}
+
+BenchmarkPlan Plan(const BenchmarkArguments& arguments) {
+  if (arguments.request.data.empty()) throw InputError("benchmark needs --data ROOT");
+  const BenchmarkPlan plan = MakeBenchmarkPlan(arguments.request);
+  CreateFolder(arguments.output);
+  WriteBenchmarkPlan(plan, arguments.output);
+  for (const std::string& sentence : plan.missing) std::cout << "missing     " << sentence << "\n";
+  std::cout << fmt::format("plan        {} runs, {}\n", plan.jobs.size(),
+                           (arguments.output / "plan.json").string());
+  return plan;
+}
+
+// Throws CLI::RuntimeError when a run broke or a signal came.
+void Run(const std::vector<BenchmarkJob>& jobs, const BenchmarkArguments& arguments) {
+  const BatchResult batch = RunJobs(jobs, arguments.output, arguments.jobs);
+  std::cout << fmt::format("runs        {} done now, {} were done, {} failed\n", batch.finished,
+                           batch.were_finished, batch.failed);
+  if (batch.stopped) throw CLI::RuntimeError(kStopped);
+  if (batch.failed > 0) {
+    std::cout << fmt::format("            why: {}/*/console.txt\n",
+                             (arguments.output / "failed").string());
+  }
+}
+
+void RunOne(const BenchmarkArguments& arguments) {
+  const BenchmarkPlan plan = ReadBenchmarkPlan(arguments.output);
+  const auto number = ParseIndex(arguments.words.size() == 2 ? arguments.words[1] : "");
+  if (!number || *number < 1 || *number > static_cast<std::int64_t>(plan.jobs.size())) {
+    throw InputError(fmt::format("run-job: expected a number from 1 to {}", plan.jobs.size()));
+  }
+  Run({plan.jobs[static_cast<std::size_t>(*number - 1)]}, arguments);
+}
+
+void Benchmark(BenchmarkArguments arguments) {
+  if (arguments.jobs < 1) throw InputError("--jobs must be at least 1");
+  const std::string& verb = arguments.words.front();
+  if (verb == "merge") return Merge(arguments);
+  if (verb == "run-job") return RunOne(arguments);
+  arguments.request.suite = arguments.words.back();
+  const BenchmarkPlan plan = Plan(arguments);
+  if (verb == "plan") return;
+  Run(plan.jobs, arguments);
+  Merge(arguments);
+}
+
+void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
+  BenchmarkRequest& request = arguments.request;
+  command.add_option("WHAT", arguments.words, "SUITE, plan SUITE, run-job K or merge")
+      ->required()
+      ->expected(1, 2);
+  command.add_option("--data", request.data, "Folder that holds the sequences, at any depth");
+  command.add_option("--output", arguments.output, "Folder for plan, runs and tables")->required();
+  command.add_option("--systems", request.systems,
+                     "Presets (configs/systems) or .yaml files (default: those of the paper)");
+  command.add_option("--sequences", request.sequences, "Only these of the suite");
+  command.add_option("--conditions", request.conditions,
+                     "Distortions, 'none' for images as they are (default: the suite's)");
+  command.add_option("--runs", request.runs, "Of each, with seeds 0, 1, ... (default 5)");
+  command.add_option("--jobs", arguments.jobs, "Runs at a time (default 1)");
+  command.add_option("--frames", request.frames, "Part of every sequence: FIRST:LAST:STEP");
+  command.add_option("--set", request.overrides, "KEY=VALUE for every system")
+      ->allow_extra_args(false);
+  command.add_option("--publications", arguments.publications,
+                     "Numbers of others to show beside ours (YAML; '' for none)");
+}
+
+}  // namespace
+
+void AddBenchmarkCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "benchmark", "Systems on the sequences of a suite, several runs each, as tables");
+  const auto arguments = std::make_shared<BenchmarkArguments>();
+  AddOptions(*command, *arguments);
+  command->footer(
+      "Suites: kitti, euroc, rendered, shared (whatever is there), robustness.\n"
+      "Runs that are finished are never repeated; a benchmark that was stopped goes on.\n"
+      "Examples:\n"
+      "  lift_slam benchmark kitti --data ~/kitti --output bench --jobs 2\n"
+      "  lift_slam benchmark plan euroc --data ~/euroc --output bench\n"
+      "  seq 55 | parallel lift_slam benchmark run-job {} --output bench\n"
+      "  lift_slam benchmark merge --output bench");
+  command->callback([arguments] { Benchmark(*arguments); });
+}
+
+}  // namespace lift_slam

@@ -1,0 +1,141 @@
+#include "apps/benchmark_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "lift_slam/util/file.h"
+#include "lift_slam/util/input_error.h"
+#include "lift_slam/util/nearest_name.h"
+
+namespace lift_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kKitti[] = {"00", "01", "02", "03", "04", "05", "06", "07", "08", "09", "10"};
+constexpr const char* kEuroc[] = {"MH_01", "MH_02", "MH_03", "MH_04", "MH_05", "V1_01",
+                                  "V1_02", "V1_03", "V2_01", "V2_02", "V2_03"};
+constexpr const char* kRobustnessKitti[] = {"03", "06", "07", "10"};
+constexpr const char* kRobustnessEuroc[] = {"MH_02"};
+constexpr int kSearchDepth = 6;
+
+// "kitti", "euroc" or nothing, by what lies in the folder.
+std::string DatasetOf(const fs::path& folder) {
+  if (fs::is_directory(folder / "mav0" / "cam0")) return "euroc";
+  for (const char* images : {"image_0", "image_2", "image_00"}) {
+    if (fs::is_directory(folder / images)) return "kitti";
+  }
+  return fs::is_regular_file(folder / "rgb.txt") ? "euroc" : "";  // a hand-held camera, indoors
+}
+
+// Sequences in a folder and below, by path.
+std::vector<BenchmarkSequence> SearchSequences(const fs::path& folder, int depth) {
+  std::vector<BenchmarkSequence> found;
+  if (const std::string dataset = DatasetOf(folder); !dataset.empty()) {
+    return {{folder.filename().string(), dataset, folder}};
+  }
+  if (depth == 0) return found;
+  std::set<fs::path> below;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_directory()) below.insert(entry.path());
+  }
+  for (const fs::path& path : below) {
+    const auto more = SearchSequences(path, depth - 1);
+    found.insert(found.end(), more.begin(), more.end());
+  }
+  return found;
+}
+
+// "track/sequences/00" is called "track": every rendered track is a KITTI tree of its own.
+std::string RenderedName(const fs::path& folder) {
+  return folder.parent_path().filename() == "sequences"
+             ? folder.parent_path().parent_path().filename().string()
+             : folder.filename().string();
+}
+
+template <class Names>
+void Choose(const Names& names, const std::string& dataset,
+            const std::vector<BenchmarkSequence>& found, std::vector<BenchmarkSequence>& chosen) {
+  for (const std::string name : names) {
+    BenchmarkSequence sequence{name, dataset, {}};
+    for (const BenchmarkSequence& candidate : found) {
+      // EuRoC's folders go on after the number: MH_01_easy.
+      const bool fits =
+          dataset == "euroc" ? candidate.name.starts_with(name) : candidate.name == name;
+      if (fits && candidate.dataset == dataset && sequence.folder.empty()) {
+        sequence.folder = candidate.folder;
+      }
+    }
+    chosen.push_back(sequence);
+  }
+}
+
+fs::path PresetFolder() {
+  const char* folder = std::getenv("LIFT_SLAM_SYSTEMS_DIR");
+  return folder != nullptr && *folder != '\0' ? folder : LIFT_SLAM_SYSTEMS;
+}
+
+std::vector<std::string> PresetNames(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".yaml") continue;
+    names.insert(
+        entry.path().filename().string().substr(0, entry.path().filename().string().find('.')));
+  }
+  return {names.begin(), names.end()};
+}
+
+}  // namespace
+
+std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
+                                                      const fs::path& data) {
+  if (!fs::is_directory(data)) {
+    throw InputError(fmt::format("--data '{}': no such folder", data.string()));
+  }
+  std::vector<BenchmarkSequence> found = SearchSequences(fs::canonical(data), kSearchDepth);
+  std::vector<BenchmarkSequence> chosen;
+  if (suite == "kitti") Choose(kKitti, "kitti", found, chosen);
+  if (suite == "euroc") Choose(kEuroc, "euroc", found, chosen);
+  if (suite == "robustness") {
+    Choose(kRobustnessKitti, "kitti", found, chosen);
+    Choose(kRobustnessEuroc, "euroc", found, chosen);
+  }
+  if (suite == "rendered" || suite == "shared") {
+    for (BenchmarkSequence& sequence : found) {
+      if (suite == "rendered") sequence.name = RenderedName(sequence.folder);
+      chosen.push_back(sequence);
+    }
+  }
+  return chosen;
+}
+
+BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& dataset) {
+  const fs::path folder = PresetFolder();
+  BenchmarkSystem system{name, name, {}, {}};
+  for (const fs::path& path :
+       {fs::path(name), folder / (name + "." + dataset + ".yaml"), folder / (name + ".yaml")}) {
+    if (system.config.empty() && path.extension() == ".yaml" && fs::is_regular_file(path)) {
+      system.config = fs::canonical(path);
+    }
+  }
+  if (system.config.empty()) {
+    const auto names = PresetNames(folder);
+    throw InputError(
+        fmt::format("system '{}' is neither a preset nor a .yaml file; the nearest "
+                    "preset is '{}'",
+                    name, NearestName(name, names)));
+  }
+  for (const std::string& line : ReadLines(system.config)) {
+    if (line.starts_with("# title: ")) system.title = line.substr(9);
+    if (!line.starts_with("# skip: ")) continue;
+    std::istringstream words(line.substr(8));
+    for (std::string word; words >> word;) system.skipped_sequences.push_back(word);
+  }
+  return system;
+}
+
+}  // namespace lift_slam

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lift_slam {
+
+struct BenchmarkSequence {
+  std::string name;              // "00", "MH_01"
+  std::string dataset;           // "kitti" or "euroc": which variant of a preset fits
+  std::filesystem::path folder;  // empty: not found
+};
+
+// The suite's sequences in the order of the tables, those that are missing included. Looks below
+// `data` wherever the datasets' own archives put them.
+std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
+                                                      const std::filesystem::path& data);
+
+// A system: a file of options, and remarks in its first lines ("# title: ...", "# skip: 00 06").
+struct BenchmarkSystem {
+  std::string name, title;
+  std::filesystem::path config;
+  std::vector<std::string> skipped_sequences;  // it was trained with them
+};
+
+// The preset for a dataset: NAME.DATASET.yaml where it exists, else NAME.yaml; or a file. Throws
+// InputError naming the nearest known preset.
+BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& dataset);
+
+}  // namespace lift_slam

@@ -1,0 +1,232 @@
+#include "apps/benchmark_plan.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/benchmark_data.h"
+#include "apps/build_info.h"
+#include "apps/program_options.h"
+#include "lift_slam/image/image_distortion.h"
+#include "lift_slam/util/config_file.h"
+#include "lift_slam/util/file.h"
+#include "lift_slam/util/input_error.h"
+#include "lift_slam/util/option_writer.h"
+#include "lift_slam/util/sha256.h"
+
+namespace lift_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The paper's conditions (Table 4), and what it could not run.
+const std::vector<std::string> kRobustnessConditions = {
+    "none", "gamma=0.25",       "gamma=0.5",        "gamma=2",  "gamma=4", "q1",
+    "q3",   "salt-pepper=0.02", "salt-pepper=0.05", "noise=10", "blur=1.5"};
+
+std::vector<std::string> Systems(const BenchmarkRequest& request) {
+  if (!request.systems.empty()) return request.systems;
+  if (request.suite == "robustness") return {"orb_slam", "adaptive_tuned_euroc", "adaptive"};
+  return {"orb_slam",
+          "lift_slam",
+          "lift_slam_tuned_kitti",
+          "lift_slam_tuned_euroc",
+          "adaptive_tuned_kitti",
+          "adaptive_tuned_euroc",
+          "adaptive",
+          "default_orb"};
+}
+
+std::vector<std::string> Conditions(const BenchmarkRequest& request) {
+  std::vector<std::string> conditions = request.conditions;
+  if (conditions.empty() && request.suite == "robustness") return kRobustnessConditions;
+  if (conditions.empty()) return {"none"};
+  for (std::string& condition : conditions) {
+    if (condition != "none") condition = ToText(ParseImageDistortions(condition));
+  }
+  return conditions;
+}
+
+bool Contains(const std::vector<std::string>& values, const std::string& value) {
+  return std::ranges::find(values, value) != values.end();
+}
+
+// Weights named in a preset are relative to where the program is run or to the presets' project.
+fs::path FindWeights(const fs::path& named, const fs::path& config) {
+  if (named.empty()) return {};
+  for (const fs::path& path : {named, config.parent_path() / "../.." / named}) {
+    if (fs::is_regular_file(path)) return fs::canonical(path);
+  }
+  return {};
+}
+
+class PlanMaker {
+ public:
+  explicit PlanMaker(const BenchmarkRequest& request) : request_(request) {
+    plan_.suite = request.suite;
+    plan_.revision = kGitRevision;
+    plan_.conditions = Conditions(request);
+  }
+
+  BenchmarkPlan Make() {
+    const auto sequences = FindBenchmarkSequences(request_.suite, request_.data);
+    for (const std::string& wanted : request_.sequences) {
+      if (std::ranges::none_of(sequences, [&](const auto& s) { return s.name == wanted; })) {
+        throw InputError(
+            fmt::format("--sequences: '{}' is not in the suite '{}'", wanted, request_.suite));
+      }
+    }
+    for (const BenchmarkSequence& sequence : sequences) {
+      if (!request_.sequences.empty() && !Contains(request_.sequences, sequence.name)) continue;
+      plan_.sequences.push_back(sequence.name);
+      if (sequence.folder.empty()) {
+        plan_.missing.push_back(
+            fmt::format("sequence {} is not below {}", sequence.name, request_.data.string()));
+      }
+      for (const std::string& name : Systems(request_)) AddSystem(name, sequence);
+    }
+    // Round after round, so that a benchmark cut short has something of everything.
+    std::ranges::stable_sort(plan_.jobs, {}, &BenchmarkJob::seed);
+    return plan_;
+  }
+
+ private:
+  void AddSystem(const std::string& name, const BenchmarkSequence& sequence) {
+    const BenchmarkSystem system = FindBenchmarkSystem(name, sequence.dataset);
+    if (!Contains(plan_.titles, system.title)) plan_.titles.push_back(system.title);
+    if (sequence.folder.empty()) return;
+    if (Contains(system.skipped_sequences, sequence.name)) {
+      plan_.skipped.push_back(system.title + "|" + sequence.name);
+      return;
+    }
+    ProgramOptions options;
+    ConfigureOptions(system.config, request_.overrides, MakeOptionRoot(options));
+    const fs::path named = options.slam.features.lift_weights;
+    const fs::path weights = FindWeights(named, system.config);
+    if (!named.empty() && weights.empty()) {
+      const std::string sentence =
+          fmt::format("{}: the weights {} are not there (docs/training.md says how to make them)",
+                      system.title, named.string());
+      if (!Contains(plan_.missing, sentence)) plan_.missing.push_back(sentence);
+      return;
+    }
+    AddJobs(system, sequence, options, weights);
+  }
+
+  void AddJobs(const BenchmarkSystem& system, const BenchmarkSequence& sequence,
+               ProgramOptions& options, const fs::path& weights) {
+    for (const std::string& condition : plan_.conditions) {
+      for (int seed = 0; seed < request_.runs; ++seed) {
+        BenchmarkJob job{system.name,
+                         system.title,
+                         sequence.name,
+                         condition == "none" ? "" : condition,
+                         seed,
+                         sequence.folder,
+                         system.config,
+                         weights,
+                         request_.overrides,
+                         request_.frames,
+                         ""};
+        const std::string identity = fmt::format(
+            "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", OptionsToYaml(MakeOptionRoot(options)),
+            WeightsHash(weights), plan_.revision, job.sequence, fs::canonical(job.source).string(),
+            job.distortion, job.frames, seed,
+            job.system);  // two systems alike still have a folder each
+        job.hash = Sha256Hex(identity).substr(0, 16);
+        plan_.jobs.push_back(job);
+      }
+    }
+  }
+
+  const std::string& WeightsHash(const fs::path& weights) {
+    std::string& hash = weight_hashes_[weights];
+    if (hash.empty()) hash = weights.empty() ? "shipped" : Sha256Hex(ReadText(weights));
+    return hash;
+  }
+
+  const BenchmarkRequest& request_;
+  BenchmarkPlan plan_;
+  std::map<fs::path, std::string> weight_hashes_;
+};
+
+Json ToJson(const BenchmarkJob& job) {
+  return {{"system", job.system},
+          {"title", job.title},
+          {"sequence", job.sequence},
+          {"distortion", job.distortion},
+          {"seed", job.seed},
+          {"source", job.source.string()},
+          {"config", job.config.string()},
+          {"weights", job.weights.string()},
+          {"overrides", job.overrides},
+          {"frames", job.frames},
+          {"hash", job.hash}};
+}
+
+BenchmarkJob JobFromJson(const Json& json) {
+  BenchmarkJob job;
+  job.system = json.at("system").get<std::string>();
+  job.title = json.at("title").get<std::string>();
+  job.sequence = json.at("sequence").get<std::string>();
+  job.distortion = json.at("distortion").get<std::string>();
+  job.seed = json.at("seed").get<int>();
+  job.source = json.at("source").get<std::string>();
+  job.config = json.at("config").get<std::string>();
+  job.weights = json.at("weights").get<std::string>();
+  job.overrides = json.at("overrides").get<std::vector<std::string>>();
+  job.frames = json.at("frames").get<std::string>();
+  job.hash = json.at("hash").get<std::string>();
+  return job;
+}
+
+}  // namespace
+
+BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
+  if (std::ranges::find(kBenchmarkSuites, request.suite) == std::end(kBenchmarkSuites)) {
+    throw InputError(fmt::format("suite '{}' is unknown; expected one of {}", request.suite,
+                                 fmt::join(kBenchmarkSuites, ", ")));
+  }
+  if (request.runs < 1) throw InputError("--runs must be at least 1");
+  BenchmarkPlan plan = PlanMaker(request).Make();
+  if (!plan.jobs.empty()) return plan;
+  throw InputError(
+      fmt::format("nothing to run: {}", plan.missing.empty()
+                                            ? "no sequence below " + request.data.string()
+                                            : fmt::format("{}", fmt::join(plan.missing, "; "))));
+}
+
+void WriteBenchmarkPlan(const BenchmarkPlan& plan, const fs::path& folder) {
+  Json json = {{"suite", plan.suite},           {"revision", plan.revision},
+               {"titles", plan.titles},         {"sequences", plan.sequences},
+               {"conditions", plan.conditions}, {"skipped", plan.skipped},
+               {"missing", plan.missing},       {"jobs", Json::array()}};
+  for (const BenchmarkJob& job : plan.jobs) json["jobs"].push_back(ToJson(job));
+  WriteTextAtomically(folder / "plan.json", json.dump(1) + "\n");
+}
+
+BenchmarkPlan ReadBenchmarkPlan(const fs::path& folder) {
+  const fs::path path = folder / "plan.json";
+  const std::string text = ReadText(path);
+  try {
+    const Json json = Json::parse(text);
+    BenchmarkPlan plan;
+    plan.suite = json.at("suite").get<std::string>();
+    plan.revision = json.at("revision").get<std::string>();
+    plan.titles = json.at("titles").get<std::vector<std::string>>();
+    plan.sequences = json.at("sequences").get<std::vector<std::string>>();
+    plan.conditions = json.at("conditions").get<std::vector<std::string>>();
+    plan.skipped = json.at("skipped").get<std::vector<std::string>>();
+    plan.missing = json.at("missing").get<std::vector<std::string>>();
+    for (const Json& job : json.at("jobs")) plan.jobs.push_back(JobFromJson(job));
+    return plan;
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format("{}: is no plan of a benchmark; make it again", path.string()));
+  }
+}
+
+}  // namespace lift_slam

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lift_slam {
+
+// What a user asks `lift_slam benchmark` for.
+struct BenchmarkRequest {
+  std::string suite;
+  std::filesystem::path data;
+  std::vector<std::string> systems;     // names of presets or .yaml files; empty: the suite's
+  std::vector<std::string> sequences;   // only these; empty: all of the suite
+  std::vector<std::string> conditions;  // distortions; "none": as they are; empty: the suite's
+  std::vector<std::string> overrides;   // key=value for every system
+  std::string frames;                   // part of every sequence: FIRST:LAST:STEP
+  int runs = 5;
+};
+
+// One run of one system on one sequence: everything that decides its result.
+struct BenchmarkJob {
+  std::string system, title;  // "adaptive", "Adaptive LIFT-SLAM"
+  std::string sequence;       // "00", "MH_01"
+  std::string distortion;     // empty: none
+  int seed = 0;               // number of the run
+  std::filesystem::path source, config;
+  std::filesystem::path weights;  // empty: those that ship
+  std::vector<std::string> overrides;
+  std::string frames;
+  // SHA-256 of settings, weights, program revision, sequence, seed and distortion, 16 digits: the
+  // name of the folder of results.
+  std::string hash;
+
+  std::string Condition() const { return distortion.empty() ? "none" : distortion; }
+};
+
+struct BenchmarkPlan {
+  std::string suite, revision;
+  std::vector<std::string> titles, sequences, conditions;  // in the order of the tables
+  std::vector<BenchmarkJob> jobs;
+  // "TITLE|SEQUENCE" that a preset leaves out, since it was trained with the sequence.
+  std::vector<std::string> skipped;
+  std::vector<std::string> missing;  // sentences: sequences and weights that are not there
+};
+
+inline constexpr const char* kBenchmarkSuites[] = {"kitti", "euroc", "rendered", "shared",
+                                                   "robustness"};
+
+// Throws InputError for an unknown suite, system or distortion, and when nothing can be run.
+BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request);
+
+// plan.json of a benchmark's folder. Throws InputError.
+void WriteBenchmarkPlan(const BenchmarkPlan& plan, const std::filesystem::path& folder);
+BenchmarkPlan ReadBenchmarkPlan(const std::filesystem::path& folder);
+
+}  // namespace lift_slam
