@@ -17,7 +17,7 @@ struct Progress {
   std::string state;                         // "tracking"
   int keyframes = 0;                         // kNoMap: neither they nor the points are shown
   int map_points = 0;
-  const char* unit = "frames";               // what is counted
+  const char* unit = "frames";  // what is counted
 };
 
 // Shows a run's progress: on a terminal one line that is drawn over and over, at most ten times a
