@@ -137,12 +137,13 @@ void Run(const RunArguments& arguments) {
   for (const std::string& warning : info.warnings) log.Warning(warning);
   DisableImageThreads();
 
-  const RunRecord record =
+  const SlamRun run =
       RunSlam(std::move(sequence), options, arguments.output, arguments.maps, log, distortions);
-  const FinishedRun finished = Conclude(arguments, info, record, options);
+  const FinishedRun finished = Conclude(arguments, info, run.record, options);
   WriteRunOutputs(finished, arguments.output, options.outputs);
   PrintSummary(finished, arguments.output);
   log.Info(fmt::format("status {}", Name(finished.evaluation.final_trajectory.status)));
+  if (!run.save_error.empty()) throw InputError(run.save_error);
   if (!log.WriteError().empty()) throw InputError(log.WriteError());
   const RunStatus status = finished.evaluation.final_trajectory.status;
   if (status == RunStatus::kFailInit || status == RunStatus::kFailLost) {

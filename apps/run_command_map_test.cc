@@ -96,6 +96,14 @@ TEST_F(RunCommandMap, ArgumentsThatContradictOneAnother) {
   ExpectOneSentence(Run(sequence_, "--localization-only"), {"--load-map FILE"});
   ExpectOneSentence(Load(folder_ / "a", "--localization-only --save-map b"), {"--save-map"});
   ExpectOneSentence(Run(sequence_, "--save-map /nowhere/at/all/a"), {"/nowhere/at/all"});
+  ExpectOneSentence(Run(sequence_, "--save-map " + folder_.string()), {"is a folder"});
+}
+
+// /proc takes no new files, which shows only when the map is written.
+TEST_F(RunCommandMap, AMapThatCannotBeSavedLosesNothingElse) {
+  const Outcome outcome = Run(sequence_, "--frames 0:29 --save-map /proc/room.liftmap");
+  EXPECT_THAT(outcome.output, HasSubstr("/proc/room.liftmap"));
+  EXPECT_EQ(ExpectAllOutputs(outcome, 1)["status"], "OK");
 }
 
 }  // namespace

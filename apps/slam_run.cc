@@ -146,15 +146,21 @@ void LoadMaps(const std::filesystem::path& path, const FramePreparer& preparer,
                        has_other_words ? " (made with another vocabulary)" : ""));
 }
 
-void SaveMaps(const std::filesystem::path& path, const MapFileInfo& info, const RunRecord& record,
-              SlamSystem& system, RunLog& log) {
+// Why they could not be saved, if so.
+std::string SaveMaps(const std::filesystem::path& path, const MapFileInfo& info,
+                     const RunRecord& record, SlamSystem& system, RunLog& log) {
   if (record.num_maps == 0) {
     log.Warning(fmt::format("{}: not written, the run made no map", path.string()));
-    return;
+    return {};
   }
-  system.SaveMaps(path, info);
+  try {
+    system.SaveMaps(path, info);
+  } catch (const InputError& error) {
+    return error.what();
+  }
   log.Info(fmt::format("{}: {} map(s) saved, {:.1f} MB", path.string(), record.num_maps,
                        1e-6 * static_cast<double>(std::filesystem::file_size(path))));
+  return {};
 }
 
 }  // namespace
@@ -171,11 +177,14 @@ void MapFiles::Check() const {
     throw InputError(
         fmt::format("{}: no such folder, expected one to save the map in", folder.string()));
   }
+  if (std::filesystem::is_directory(save)) {
+    throw InputError(fmt::format("--save-map: {} is a folder, expected a file", save.string()));
+  }
 }
 
-RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
-                  const std::filesystem::path& folder, const MapFiles& maps, RunLog& log,
-                  const std::vector<ImageDistortion>& distortions) {
+SlamRun RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
+                const std::filesystem::path& folder, const MapFiles& maps, RunLog& log,
+                const std::vector<ImageDistortion>& distortions) {
   const SequenceInfo info = sequence->info();
   if (options.mode == RunMode::kThreaded) {
     sequence = std::make_unique<PrefetchingSequence>(std::move(sequence));
@@ -210,16 +219,18 @@ RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& opti
                }},
               preparer, system);
   observer.Finish();
-  RunRecord record = system.Finish();
+  SlamRun run{system.Finish(), {}};
+  RunRecord& record = run.record;
   record.wall_time_s = timer.ElapsedMs() * 1e-3;
   record.place_recognition_notice = places.notice;
   record.interrupted = stop.Requested();
   if (!maps.save.empty()) {
-    SaveMaps(maps.save, MakeMapFileInfo(*preparer.view(), kind, ChecksumOf(places)), record, system,
-             log);
+    run.save_error =
+        SaveMaps(maps.save, MakeMapFileInfo(*preparer.view(), kind, ChecksumOf(places)), record,
+                 system, log);
   }
   if (record.interrupted) log.Warning(fmt::format("ended early by {}", stop.Name()));
-  return record;
+  return run;
 }
 
 }  // namespace lift_slam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "apps/program_options.h"
@@ -19,11 +20,16 @@ struct MapFiles {
   void Check() const;
 };
 
+struct SlamRun {
+  RunRecord record;
+  std::string save_error;  // why the maps could not be saved; empty: they were, or need not be
+};
+
 // Runs SLAM over a sequence with progress on stderr, each online pose written to the folder as it
 // comes, and refusals in the log. Every image goes through the distortions first. Ends early, with
-// everything so far, on SIGINT or SIGTERM.
-RunRecord RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
-                  const std::filesystem::path& folder, const MapFiles& maps, RunLog& log,
-                  const std::vector<ImageDistortion>& distortions = {});
+// everything so far, on SIGINT or SIGTERM. Maps that cannot be saved do not take the rest along.
+SlamRun RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
+                const std::filesystem::path& folder, const MapFiles& maps, RunLog& log,
+                const std::vector<ImageDistortion>& distortions = {});
 
 }  // namespace lift_slam

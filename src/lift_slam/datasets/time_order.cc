@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "lift_slam/util/median.h"
+
 namespace lift_slam {
 
 // Longest increasing subsequence (patience sorting), run from the end so that ties go to the
@@ -38,9 +40,8 @@ double MedianRateHz(std::span<const std::int64_t> timestamps_ns) {
     steps_ns.push_back(static_cast<std::uint64_t>(timestamps_ns[i]) -
                        static_cast<std::uint64_t>(timestamps_ns[i - 1]));
   }
-  const auto middle = steps_ns.begin() + static_cast<std::ptrdiff_t>(steps_ns.size() / 2);
-  std::nth_element(steps_ns.begin(), middle, steps_ns.end());
-  return *middle > 0 ? 1e9 / static_cast<double>(*middle) : 0.0;
+  const std::uint64_t step_ns = Median(std::move(steps_ns));
+  return step_ns > 0 ? 1e9 / static_cast<double>(step_ns) : 0.0;
 }
 
 }  // namespace lift_slam

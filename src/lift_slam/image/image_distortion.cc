@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "lift_slam/image/gamma.h"
+#include "lift_slam/image/gray_histogram.h"
 #include "lift_slam/image/noise.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/number_text.h"
@@ -130,10 +130,7 @@ std::string ToText(std::span<const ImageDistortion> chain) {
 }
 
 std::uint8_t GrayQuantile(const GrayImage& image, double share) {
-  std::array<std::int64_t, 256> histogram{};
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) ++histogram[image.row(y)[x]];
-  }
+  const auto histogram = GrayHistogram(image);
   const double wanted = share * image.width() * image.height();
   std::int64_t seen = 0;
   for (std::size_t v = 0; v < 256; ++v) {

@@ -7,6 +7,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "lift_slam/image/gray_histogram.h"
+
 namespace lift_slam {
 namespace {
 
@@ -33,15 +35,6 @@ Neighbours Around(const GrayImage& image, int x, int y, int radius, const Accept
     }
   }
   return found;
-}
-
-std::array<std::int64_t, 256> Histogram(const GrayImage& image) {
-  std::array<std::int64_t, 256> histogram{};
-  for (int y = 0; y < image.height(); ++y) {
-    const std::uint8_t* row = image.row(y);
-    for (int x = 0; x < image.width(); ++x) ++histogram[row[x]];
-  }
-  return histogram;
 }
 
 // The values in use besides 0 and 255, without the rarest (a ten-thousandth on either side).
@@ -112,7 +105,7 @@ ImpulseNoiseShares MeasureImpulseNoise(const GrayImage& image, const ImpulseNois
   ImpulseNoiseShares shares;
   const std::int64_t num_pixels = std::int64_t{image.width()} * image.height();
   if (num_pixels == 0) return shares;
-  const auto histogram = Histogram(image);
+  const auto histogram = GrayHistogram(image);
   const double least = options.min_share * static_cast<double>(num_pixels);
   if (static_cast<double>(std::min(histogram[kPepper], histogram[kSalt])) < least) return shares;
   const UsedRange range = FindUsedRange(histogram, num_pixels);

@@ -1,9 +1,8 @@
 #include "lift_slam/loop_closing/loop_bundle.h"
 
-#include <algorithm>
-
 #include "lift_slam/geometry/sim3.h"
 #include "lift_slam/optimization/map_bundle_problem.h"
+#include "lift_slam/util/median.h"
 #include "lift_slam/util/timer.h"
 
 namespace lift_slam {
@@ -41,9 +40,7 @@ std::vector<double> ScalesOf(const BundleProblem& before, const Solved& solved) 
   }
   std::vector<double> scales;
   for (std::vector<double>& values : ratios) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    scales.push_back(values.empty() ? 1.0 : *middle);
+    scales.push_back(values.empty() ? 1.0 : Median(std::move(values)));
   }
   return scales;
 }
@@ -89,27 +86,11 @@ class Merge {
     return scales;
   }
 
-  int RemoveOutliers() {
-    int count = 0;
-    for (std::size_t i = 0; i < before_.observations.size(); ++i) {
-      if (solved_.report.is_inlier[i]) continue;
-      const BundleObservation& observation = before_.observations[i];
-      const MapPointId point = index_.points[static_cast<std::size_t>(observation.point)];
-      const KeyFrameId keyframe = index_.keyframes[static_cast<std::size_t>(observation.camera)];
-      const bool is_there =
-          map_.FindPoint(point) != nullptr && map_.FindKeyFrame(keyframe) != nullptr;
-      if (!is_there || map_.point(point).FeatureIn(keyframe) < 0) continue;
-      map_.RemoveObservation(point, keyframe);
-      ++count;
-    }
-    return count;
-  }
-
  private:
   // By keyframe id, for all in the map: its own, or that of the nearest ancestor which has one.
   void FindMotions() {
     const std::vector<double> scales = ScalesOf(before_, solved_);
-    motion_.resize(map_.newest_keyframe().index() + 1);
+    motion_.resize(map_.num_keyframe_ids());
     for (const KeyFrameId id : map_.KeyFrameIds()) {
       KeyFrameId known = id;
       while (known.valid() && index_.CameraOf(known) < 0) {
@@ -125,10 +106,9 @@ class Merge {
   // Points that nothing has moved since then take their new place, others go with their oldest
   // observer.
   void MovePoints() {
-    std::vector<int> index_of(map_.PointIds().empty() ? 0 : map_.PointIds().back().index() + 1, -1);
+    std::vector<int> index_of(map_.num_point_ids(), -1);
     for (std::size_t i = 0; i < index_.points.size(); ++i) {
-      const std::size_t id = index_.points[i].index();
-      if (id < index_of.size()) index_of[id] = static_cast<int>(i);
+      index_of[index_.points[i].index()] = static_cast<int>(i);
     }
     for (const MapPointId id : map_.PointIds()) {
       MapPoint& point = map_.point(id);
@@ -179,7 +159,7 @@ std::optional<LoopBundleReport> LoopBundle::KeyFrameAdded(const SpanningTree& tr
   report.observations = static_cast<int>(running->before.observations.size());
   Merge merge(running->index, running->before, solved, tree, map);
   report.scale_of_keyframe = merge.Run();
-  report.outliers = merge.RemoveOutliers();
+  report.outliers = RemoveOutliers(running->index, running->before, solved.report.is_inlier, map);
   for (const MapPointId id : map.PointIds()) map.UpdateViewingRange(id);
   report.merge_ms = merge_timer.ElapsedMs();
   return report;

@@ -10,6 +10,7 @@
 #include "lift_slam/matching/frame_matcher.h"
 #include "lift_slam/optimization/pose_graph.h"
 #include "lift_slam/optimization/sim3_optimization.h"
+#include "lift_slam/util/median.h"
 
 namespace lift_slam {
 namespace {
@@ -170,11 +171,9 @@ class Verifier {
 
   // The median, when enough of the ratios are near it: two cameras at one place see the same of two
   // maps whatever their shapes and scales, so reprojection alone does not tell.
-  std::optional<double> CommonScale(std::vector<double> scales) const {
+  std::optional<double> CommonScale(const std::vector<double>& scales) const {
     if (static_cast<int>(scales.size()) < options_.min_scale_matches) return std::nullopt;
-    const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
-    std::nth_element(scales.begin(), middle, scales.end());
-    const double median = *middle;
+    const double median = Median(scales);
     const auto agreeing = std::ranges::count_if(scales, [&](double scale) {
       return scale < kScaleTolerance * median && scale > median / kScaleTolerance;
     });

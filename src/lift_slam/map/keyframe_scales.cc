@@ -1,6 +1,6 @@
 #include "lift_slam/map/keyframe_scales.h"
 
-#include <algorithm>
+#include "lift_slam/util/median.h"
 
 namespace lift_slam {
 
@@ -29,10 +29,7 @@ std::vector<double> KeyFrameScales::ChangesIn(const Map& map) const {
       const double depth = (keyframe.cam_from_world * point->position).z();
       if (depth > 0.0 && before.depth > 0.0) ratios.push_back(depth / before.depth);
     }
-    if (ratios.empty()) continue;
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    changes[i] = *middle;
+    if (!ratios.empty()) changes[i] = Median(std::move(ratios));
   }
   return changes;
 }

@@ -53,6 +53,7 @@ bool Map::ReferencesEnd() const {
 }
 
 bool Map::Connect(const MapPoint& point) {
+  if (point.observations.empty()) return false;
   KeyFrameId previous;
   for (const MapPoint::Observation& observation : point.observations) {
     const KeyFrame* seen_by = FindKeyFrame(observation.keyframe);

@@ -9,17 +9,7 @@ namespace {
 int WriteBack(const BundleIndex& index, const BundleProblem& problem, const BundleReport& report,
               Map& map) {
   WritePosesAndPoints(index, problem, map);
-  int outliers = 0;
-  for (std::size_t k = 0; k < problem.observations.size(); ++k) {
-    if (report.is_inlier[k]) continue;
-    ++outliers;
-    const BundleObservation& observation = problem.observations[k];
-    const MapPointId point = index.points[static_cast<std::size_t>(observation.point)];
-    const KeyFrameId keyframe = index.keyframes[static_cast<std::size_t>(observation.camera)];
-    if (map.FindPoint(point) != nullptr && map.point(point).FeatureIn(keyframe) >= 0) {
-      map.RemoveObservation(point, keyframe);
-    }
-  }
+  const int outliers = RemoveOutliers(index, problem, report.is_inlier, map);
   for (const MapPointId id : index.points) {
     if (map.FindPoint(id) != nullptr) map.UpdateViewingRange(id);
   }

@@ -77,4 +77,19 @@ void WritePosesAndPoints(const BundleIndex& index, const BundleProblem& problem,
   }
 }
 
+int RemoveOutliers(const BundleIndex& index, const BundleProblem& problem,
+                   const std::vector<char>& is_inlier, Map& map) {
+  int removed = 0;
+  for (std::size_t i = 0; i < problem.observations.size(); ++i) {
+    if (is_inlier[i]) continue;
+    const BundleObservation& observation = problem.observations[i];
+    const MapPointId point = index.points[static_cast<std::size_t>(observation.point)];
+    const KeyFrameId keyframe = index.keyframes[static_cast<std::size_t>(observation.camera)];
+    if (map.FindPoint(point) == nullptr || map.point(point).FeatureIn(keyframe) < 0) continue;
+    map.RemoveObservation(point, keyframe);
+    ++removed;
+  }
+  return removed;
+}
+
 }  // namespace lift_slam

@@ -30,4 +30,9 @@ void DropUndeterminedPoints(BundleIndex& index, BundleProblem& problem);
 // The problem's free poses and its points become the map's.
 void WritePosesAndPoints(const BundleIndex& index, const BundleProblem& problem, Map& map);
 
+// Takes the observations that are no inliers (one entry for each of the problem's) out of the map,
+// as far as they are still in it; returns how many.
+int RemoveOutliers(const BundleIndex& index, const BundleProblem& problem,
+                   const std::vector<char>& is_inlier, Map& map);
+
 }  // namespace lift_slam

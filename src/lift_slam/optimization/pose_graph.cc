@@ -9,6 +9,7 @@
 
 #include "lift_slam/optimization/cost_functions/pose_graph_cost.h"
 #include "lift_slam/util/check.h"
+#include "lift_slam/util/median.h"
 
 namespace lift_slam {
 namespace {
@@ -36,10 +37,7 @@ double TranslationUnit(const PoseGraph& graph, const PoseGraphOptions& options) 
     const double length = edge.b_from_a.translation.norm();
     if (length > 0.0) lengths.push_back(length);
   }
-  if (lengths.empty()) return 1.0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return lengths.empty() ? 1.0 : Median(std::move(lengths));
 }
 
 class PoseGraphSolver {

@@ -58,12 +58,12 @@ Frame PreparedFrame::MakeFrame() const {
 PreparedFrame FramePreparer::Prepare(InputFrame input) {
   PreparedFrame prepared;
   const Timer timer;
-  if (input.refusal == FrameRefusal::kNone && impulse_noise_.remove) {
-    const ImpulseNoiseResult clean = RemoveImpulseNoise(input.image, impulse_noise_);
-    input.image = clean.image;
-    prepared.num_impulses = clean.num_replaced;
-  }
   if (input.refusal == FrameRefusal::kNone) {
+    if (impulse_noise_.remove) {
+      const ImpulseNoiseResult clean = RemoveImpulseNoise(input.image, impulse_noise_);
+      input.image = clean.image;
+      prepared.num_impulses = clean.num_replaced;
+    }
     FeatureSet features = extractor_->Extract(input.image);
     std::vector<Eigen::Vector2f> undistorted;
     std::vector<std::size_t> rows;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lift_slam/util/median.h"
 #include "lift_slam/visualization/axis.h"
 #include "lift_slam/visualization/map_viewer_script.h"
 #include "lift_slam/visualization/xml_text.h"
@@ -125,9 +126,7 @@ double FrustumSize(const RunRecord& run, const ReportScene& scene, const ScenePa
     before = centre;
   }
   if (steps.empty()) return 0.03;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return std::clamp(0.8 * *middle, 0.008, 0.03);
+  return std::clamp(0.8 * Median(std::move(steps)), 0.008, 0.03);
 }
 
 // Centre and the unit axes right, down and forward of each keyframe: 12 numbers.
