@@ -47,6 +47,12 @@ class Tracker {
   // that should be seen; otherwise everything is as before.
   TrackingResult Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar);
 
+  // The next frame cannot be predicted from the last one: there is a gap in the input.
+  void ForgetMotion() {
+    last_was_tracked_ = false;
+    velocity_.reset();
+  }
+
   // The map has been corrected and `keyframe` is the last tracked frame: lengths in its camera
   // frame were multiplied by `scale`.
   void MapCorrected(const Map& map, KeyFrameId keyframe, double scale);
