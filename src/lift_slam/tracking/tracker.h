@@ -38,6 +38,12 @@ class Tracker {
   // Gives the frame its pose and matches; updates the points' visibility counts.
   TrackingResult Track(Map& map, Frame& frame);
 
+  // The next frame cannot be predicted from the last one: there is a gap in the input.
+  void ForgetMotion() {
+    last_was_tracked_ = false;
+    velocity_.reset();
+  }
+
   // The last tracked frame became `keyframe` and local mapping has run: take over its new pose,
   // matches and points.
   void KeyFrameMapped(const Map& map, KeyFrameId keyframe);
@@ -46,12 +52,6 @@ class Tracker {
   // descriptors alone. Succeeds with more points than tracking needs, and a good share of those
   // that should be seen; otherwise everything is as before.
   TrackingResult Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar);
-
-  // The next frame cannot be predicted from the last one: there is a gap in the input.
-  void ForgetMotion() {
-    last_was_tracked_ = false;
-    velocity_.reset();
-  }
 
   // The map has been corrected and `keyframe` is the last tracked frame: lengths in its camera
   // frame were multiplied by `scale`.
