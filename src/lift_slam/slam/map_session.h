@@ -45,6 +45,8 @@ class MapSession {
     double track_ms = 0.0, map_ms = 0.0;
   };
   Step Process(const PreparedFrame& prepared);
+  // The next frame comes after a gap in the input and is found without prediction.
+  void ForgetMotion() { tracker_.ForgetMotion(); }
   // Looks for a lost frame in the whole map by its words (nothing without a vocabulary); refused
   // when it shows no place of the map.
   Step Relocalize(const PreparedFrame& prepared);

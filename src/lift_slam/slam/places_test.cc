@@ -88,6 +88,15 @@ TEST(Places, AKidnappedCameraIsFoundAgainInTheSameMap) {
   }
 }
 
+TEST(Places, SlowInputHasNoGaps) {
+  const auto sequence = SmallSequence(SyntheticPath::kRoomLoop, 40, kFrameRateHz);
+  TestRunOptions options = WithVocabulary(RunMode::kThreaded);
+  options.change_frame = [](InputFrame& frame) { frame.timestamp_ns *= 30; };  // two seconds each
+  const RunRecord run = RunSynthetic(sequence, options);
+  EXPECT_EQ(run.counters.count("tracking.gaps_in_time"), 0U);
+  EXPECT_GE(Judge(run, {}).coverage.frames_ok, 38);
+}
+
 TEST(Places, AMapBegunWhenLostJoinsTheFirstWhenItShowsTheSamePlace) {
   const auto sequence = RoundAndMore(60);
   TestRunOptions options = WithVocabulary(RunMode::kThreaded);

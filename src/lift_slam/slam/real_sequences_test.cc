@@ -114,5 +114,35 @@ TEST_F(RealSlam, RedKitchen) {
   EXPECT_LE(real.result.ate_m->rmse, 0.052);
 }
 
+// The camera is carried on while 201 frames are missing. The motion before them predicts a wrong
+// place, in which points enough agree to be tracked: 0.5 m off, and nothing says lost.
+TEST_F(RealSlam, RedKitchenIsFoundInTheRightPlaceAfterMissingFrames) {
+#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "takes minutes in a debug build or under a sanitizer";
+#endif
+  auto sequence = OpenSequence((RealDataFolder() / "7scenes_redkitchen").string(), {});
+  const Trajectory truth = sequence->info().ground_truth->poses;
+  TestRunOptions options;
+  options.mode = RunMode::kThreaded;
+  options.vocabulary = ShippedOrbVocabulary();
+  options.change_frame = [](InputFrame& frame) {
+    if (frame.frame_index >= 300 && frame.frame_index <= 500) {
+      frame.refusal = FrameRefusal::kImageUnreadable;
+    }
+  };
+  options.frame_done = [](const FrameRecord& frame) { return frame.frame_index < 531; };
+  const RunRecord run =
+      RunSequence(std::make_unique<PrefetchingSequence>(std::move(sequence)), options);
+  EXPECT_EQ(run.counters.at("tracking.gaps_in_time"), 1);
+  for (std::size_t i = 501; i < run.frames.size(); ++i) {
+    EXPECT_EQ(run.frames[i].state, TrackingState::kTracking) << i;
+  }
+  // As given when each frame was processed: a loop that repairs the map later does not count.
+  const EvaluationResult result = Evaluate(run.online_trajectory, truth, EvaluationOptions());
+  ASSERT_TRUE(result.ate_m);
+  std::cout << "largest error " << result.ate_m->max << " m\n";
+  EXPECT_LE(result.ate_m->max, 0.12);
+}
+
 }  // namespace
 }  // namespace lift_slam

@@ -4,6 +4,12 @@
 #include "lift_slam/util/timer.h"
 
 namespace lift_slam {
+namespace {
+
+// A gap is longer than this many intervals of the frames before it: slow input has none.
+constexpr std::int64_t kIntervalsOfGap = 5;
+
+}  // namespace
 
 SlamSystem::SlamSystem(const Camera& camera, std::shared_ptr<const ViewModel> view,
                        const SlamOptions& options, std::shared_ptr<const Vocabulary> vocabulary)
@@ -44,6 +50,8 @@ const FrameRecord& SlamSystem::Process(const PreparedFrame& prepared) {
       ProcessWithoutMap(prepared, record);
     }
   }
+  frame_interval_ns_ = record_.frames.empty() ? 0 : record.timestamp_ns - last_frame_ns_;
+  last_frame_ns_ = record.timestamp_ns;
   record.state = state_;
   ++record_.refusals[static_cast<std::size_t>(record.refusal)];
   record_.frames.push_back(record);
@@ -92,9 +100,21 @@ void SlamSystem::ProcessInitializing(const PreparedFrame& prepared, FrameRecord&
 }
 
 void SlamSystem::ProcessTracking(const PreparedFrame& prepared, FrameRecord& record) {
+  if (IsAfterGap(record.timestamp_ns)) {
+    // The camera may be anywhere; a wrong prediction finds points enough to be believed.
+    ++record_.counters["tracking.gaps_in_time"];
+    maps_.active()->ForgetMotion();
+  }
   const MapSession::Step step = maps_.active()->Process(prepared);
   RecordTracked(step, prepared, record);
   if (record.refusal != FrameRefusal::kNone) HandleLost(prepared, record);
+}
+
+bool SlamSystem::IsAfterGap(std::int64_t timestamp_ns) const {
+  const std::int64_t gap_ns = timestamp_ns - last_tracked_ns_;
+  return state_ == TrackingState::kTracking && frame_interval_ns_ > 0 &&
+         gap_ns > kIntervalsOfGap * frame_interval_ns_ &&
+         static_cast<double>(gap_ns) * 1e-9 > options_.recovery_time_s;
 }
 
 bool SlamSystem::Relocalize(const PreparedFrame& prepared, FrameRecord& record) {

@@ -47,6 +47,8 @@ class SlamSystem {
   void ProcessInitializing(const PreparedFrame& prepared, FrameRecord& record);
   void ProcessWithoutMap(const PreparedFrame& prepared, FrameRecord& record);
   void ProcessTracking(const PreparedFrame& prepared, FrameRecord& record);
+  // Whether so much time has passed since the last tracked frame that it predicts nothing.
+  bool IsAfterGap(std::int64_t timestamp_ns) const;
   // Looks for the frame by its words; false when no map shows it.
   bool Relocalize(const PreparedFrame& prepared, FrameRecord& record);
   void RecordTracked(const MapSession::Step& step, const PreparedFrame& prepared,
@@ -61,6 +63,7 @@ class SlamSystem {
   TrackingState state_ = TrackingState::kInitializing;
   std::unique_ptr<MapInitializer> initializer_;
   std::int64_t last_tracked_ns_ = 0;
+  std::int64_t last_frame_ns_ = 0, frame_interval_ns_ = 0;  // of the frames before; 0: none yet
   AnnotatedFrameAlbum album_;
   RunRecord record_;
   MapCollection maps_;  // writes into record_

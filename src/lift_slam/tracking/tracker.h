@@ -38,6 +38,12 @@ class Tracker {
   // Gives the frame its pose and matches; updates the points' visibility counts.
   TrackingResult Track(Map& map, Frame& frame);
 
+  // The next frame cannot be predicted from the last one: there is a gap in the input.
+  void ForgetMotion() {
+    last_was_tracked_ = false;
+    velocity_.reset();
+  }
+
   // The last tracked frame became `keyframe` and local mapping has run: take over its new pose,
   // matches and points.
   void KeyFrameMapped(const Map& map, KeyFrameId keyframe);
