@@ -21,6 +21,12 @@ constexpr const char* kEuroc[] = {"MH_01", "MH_02", "MH_03", "MH_04", "MH_05", "
                                   "V1_02", "V1_03", "V2_01", "V2_02", "V2_03"};
 constexpr const char* kRobustnessKitti[] = {"03", "06", "07", "10"};
 constexpr const char* kRobustnessEuroc[] = {"MH_02"};
+// The two sequences of the paper's Table 1.
+constexpr const char* kThresholdsKitti[] = {"05"};
+constexpr const char* kThresholdsEuroc[] = {"MH_01"};
+// Images of each sequence, in the order of kKitti and kEuroc.
+constexpr int kKittiFrames[] = {4541, 1101, 4661, 801, 271, 2761, 1101, 1101, 4071, 1591, 1201};
+constexpr int kEurocFrames[] = {3682, 3040, 2700, 2033, 2273, 2912, 1710, 2149, 2280, 2348, 1922};
 constexpr int kSearchDepth = 6;
 
 // "kitti", "euroc" or nothing, by what lies in the folder.
@@ -104,6 +110,10 @@ std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
     Choose(kRobustnessKitti, "kitti", found, chosen);
     Choose(kRobustnessEuroc, "euroc", found, chosen);
   }
+  if (suite == "thresholds") {
+    Choose(kThresholdsEuroc, "euroc", found, chosen);
+    Choose(kThresholdsKitti, "kitti", found, chosen);
+  }
   if (suite == "rendered" || suite == "shared") {
     for (BenchmarkSequence& sequence : found) {
       if (suite == "rendered") sequence.name = RenderedName(sequence.folder);
@@ -111,6 +121,14 @@ std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
     }
   }
   return chosen;
+}
+
+int PublishedFrames(const std::string& sequence) {
+  const auto frames_in = [&](const auto& names, const auto& frames) {
+    const auto found = std::ranges::find(names, sequence);
+    return found == std::end(names) ? 0 : frames[found - std::begin(names)];
+  };
+  return std::max(frames_in(kKitti, kKittiFrames), frames_in(kEuroc, kEurocFrames));
 }
 
 BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& dataset) {

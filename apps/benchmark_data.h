@@ -18,6 +18,10 @@ struct BenchmarkSequence {
 std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
                                                       const std::filesystem::path& data);
 
+// Images of a sequence of KITTI odometry ("00") or EuRoC ("MH_01", cam0) as published; 0: not
+// known.
+int PublishedFrames(const std::string& sequence);
+
 // A system: a file of options, and remarks in its first lines ("# title: ...", "# skip: 00 06").
 struct BenchmarkSystem {
   std::string name, title;

@@ -31,6 +31,9 @@ const std::vector<std::string> kRobustnessConditions = {
 std::vector<std::string> Systems(const BenchmarkRequest& request) {
   if (!request.systems.empty()) return request.systems;
   if (request.suite == "robustness") return {"orb_slam", "adaptive_tuned_euroc", "adaptive"};
+  if (request.suite == "thresholds") {
+    return {"lift_slam_100_200", "lift_slam_100_150", "lift_slam_200_300", "adaptive"};
+  }
   return {"orb_slam",
           "lift_slam",
           "lift_slam_tuned_kitti",
@@ -69,6 +72,7 @@ class PlanMaker {
   explicit PlanMaker(const BenchmarkRequest& request) : request_(request) {
     plan_.suite = request.suite;
     plan_.revision = kGitRevision;
+    plan_.frames = request.frames;
     plan_.conditions = Conditions(request);
   }
 
@@ -201,10 +205,10 @@ BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
 }
 
 void WriteBenchmarkPlan(const BenchmarkPlan& plan, const fs::path& folder) {
-  Json json = {{"suite", plan.suite},           {"revision", plan.revision},
-               {"titles", plan.titles},         {"sequences", plan.sequences},
-               {"conditions", plan.conditions}, {"skipped", plan.skipped},
-               {"missing", plan.missing},       {"jobs", Json::array()}};
+  Json json = {
+      {"suite", plan.suite},     {"revision", plan.revision},   {"frames", plan.frames},
+      {"titles", plan.titles},   {"sequences", plan.sequences}, {"conditions", plan.conditions},
+      {"skipped", plan.skipped}, {"missing", plan.missing},     {"jobs", Json::array()}};
   for (const BenchmarkJob& job : plan.jobs) json["jobs"].push_back(ToJson(job));
   WriteTextAtomically(folder / "plan.json", json.dump(1) + "\n");
 }
@@ -217,6 +221,7 @@ BenchmarkPlan ReadBenchmarkPlan(const fs::path& folder) {
     BenchmarkPlan plan;
     plan.suite = json.at("suite").get<std::string>();
     plan.revision = json.at("revision").get<std::string>();
+    plan.frames = json.value("frames", "");
     plan.titles = json.at("titles").get<std::vector<std::string>>();
     plan.sequences = json.at("sequences").get<std::vector<std::string>>();
     plan.conditions = json.at("conditions").get<std::vector<std::string>>();
