@@ -10,6 +10,7 @@
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
+#include "lift_slam/util/sha256.h"
 
 namespace lift_slam {
 namespace {
@@ -28,6 +29,7 @@ constexpr const char* kThresholdsEuroc[] = {"MH_01"};
 constexpr int kKittiFrames[] = {4541, 1101, 4661, 801, 271, 2761, 1101, 1101, 4071, 1591, 1201};
 constexpr int kEurocFrames[] = {3682, 3040, 2700, 2033, 2273, 2912, 1710, 2149, 2280, 2348, 1922};
 constexpr int kSearchDepth = 6;
+constexpr std::uintmax_t kMaxTextBytes = 64U << 20U;
 
 // "kitti", "euroc" or nothing, by what lies in the folder.
 std::string DatasetOf(const fs::path& folder) {
@@ -80,6 +82,13 @@ void Choose(const Names& names, const std::string& dataset,
   }
 }
 
+bool IsSmallText(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  const bool is_text = extension == ".txt" || extension == ".csv" || extension == ".yaml" ||
+                       extension == ".yml" || extension == ".xml";
+  return is_text && fs::file_size(file) <= kMaxTextBytes;
+}
+
 fs::path PresetFolder() {
   const char* folder = std::getenv("LIFT_SLAM_SYSTEMS_DIR");
   return folder != nullptr && *folder != '\0' ? folder : LIFT_SLAM_SYSTEMS;
@@ -129,6 +138,22 @@ int PublishedFrames(const std::string& sequence) {
     return found == std::end(names) ? 0 : frames[found - std::begin(names)];
   };
   return std::max(frames_in(kKitti, kKittiFrames), frames_in(kEuroc, kEurocFrames));
+}
+
+std::string SequenceIdentity(const fs::path& folder) {
+  std::set<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.insert(entry.path());
+  }
+  std::string text;
+  for (const fs::path& file : files) {
+    text += fmt::format("{} {}\n", file.lexically_relative(folder).string(), fs::file_size(file));
+    if (IsSmallText(file)) text += ReadText(file);
+  }
+  const fs::path truth =
+      folder.parent_path().parent_path() / "poses" / (folder.filename().string() + ".txt");
+  if (fs::is_regular_file(truth)) text += ReadText(truth);
+  return Sha256Hex(text);
 }
 
 BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& dataset) {

@@ -22,6 +22,11 @@ std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
 // known.
 int PublishedFrames(const std::string& sequence);
 
+// SHA-256 of what a sequence's folder holds: names and sizes of all files, and the content of the
+// small text files (calibration, times, truth); for KITTI of ../../poses/NAME.txt too. The same
+// wherever the folder lies, so that results outlive a move of the data.
+std::string SequenceIdentity(const std::filesystem::path& folder);
+
 // A system: a file of options, and remarks in its first lines ("# title: ...", "# skip: 00 06").
 struct BenchmarkSystem {
   std::string name, title;

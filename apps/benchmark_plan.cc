@@ -67,6 +67,13 @@ fs::path FindWeights(const fs::path& named, const fs::path& config) {
   return {};
 }
 
+// The revision; of a build that differs from it, or of none, the program itself too.
+std::string ProgramIdentity() {
+  const std::string revision = kGitRevision;
+  if (!revision.ends_with("-dirty") && revision != "unknown") return revision;
+  return revision + " " + Sha256Hex(ReadText("/proc/self/exe"));
+}
+
 class PlanMaker {
  public:
   explicit PlanMaker(const BenchmarkRequest& request) : request_(request) {
@@ -136,15 +143,21 @@ class PlanMaker {
                          request_.overrides,
                          request_.frames,
                          ""};
-        const std::string identity = fmt::format(
-            "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", OptionsToYaml(MakeOptionRoot(options)),
-            WeightsHash(weights), plan_.revision, job.sequence, fs::canonical(job.source).string(),
-            job.distortion, job.frames, seed,
-            job.system);  // two systems alike still have a folder each
+        const std::string identity =
+            fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}",
+                        OptionsToYaml(MakeOptionRoot(options)), WeightsHash(weights), program_,
+                        job.sequence, IdentityOf(job.source), job.distortion, job.frames, seed,
+                        job.system);  // two systems alike still have a folder each
         job.hash = Sha256Hex(identity).substr(0, 16);
         plan_.jobs.push_back(job);
       }
     }
+  }
+
+  const std::string& IdentityOf(const fs::path& sequence) {
+    std::string& identity = sequence_identities_[sequence];
+    if (identity.empty()) identity = SequenceIdentity(sequence);
+    return identity;
   }
 
   const std::string& WeightsHash(const fs::path& weights) {
@@ -155,7 +168,8 @@ class PlanMaker {
 
   const BenchmarkRequest& request_;
   BenchmarkPlan plan_;
-  std::map<fs::path, std::string> weight_hashes_;
+  const std::string program_ = ProgramIdentity();
+  std::map<fs::path, std::string> weight_hashes_, sequence_identities_;
 };
 
 Json ToJson(const BenchmarkJob& job) {

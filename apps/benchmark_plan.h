@@ -28,8 +28,8 @@ struct BenchmarkJob {
   std::filesystem::path weights;  // empty: those that ship
   std::vector<std::string> overrides;
   std::string frames;
-  // SHA-256 of settings, weights, program revision, sequence, seed and distortion, 16 digits: the
-  // name of the folder of results.
+  // SHA-256 of settings, weights, program, content of the sequence, part of it, seed and
+  // distortion, 16 digits: the name of the folder of results.
   std::string hash;
 
   std::string Condition() const { return distortion.empty() ? "none" : distortion; }
