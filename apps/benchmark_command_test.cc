@@ -74,6 +74,13 @@ TEST_F(BenchmarkCommand, RunsEurocJobByJob) {
   const Outcome merged = RunProgram("benchmark merge --output " + output_.string());
   EXPECT_EQ(merged.exit_code, 0) << merged.output;
   EXPECT_THAT(merged.output, HasSubstr("MH_02"));
+  fs::create_directories(folder_ / "other");
+  fs::copy_file(output_ / "results" / *Finished().begin() / "trajectory.tum",
+                folder_ / "other/MH_02_easy.txt");
+  const Outcome joined = RunProgram(fmt::format("benchmark merge --output {} --external Other={}",
+                                                output_.string(), (folder_ / "other").string()));
+  EXPECT_THAT(joined.output, HasSubstr("MH_02, Other | 1/1 | 100.0 | 0.0"));
+  EXPECT_THAT(joined.output, testing::Not(HasSubstr("t_rel [%]")));
   ExpectOneSentence(RunProgram("benchmark run-job 3 --output " + output_.string()),
                     {"a number from 1 to 2"});
 }
@@ -162,6 +169,16 @@ TEST_F(BenchmarkCommand, ThresholdsThatVaryAreDrawn) {
   EXPECT_EQ(XmlProblem(svg), "");
 }
 
+TEST_F(BenchmarkCommand, MissingWeightsAreListedWithTheirMaking) {
+  Render(SequenceLayout::kKittiOdometry, 4);
+  const Outcome outcome =
+      RunProgram(Arguments("plan kitti", "default_orb adaptive_tuned_euroc") + " --runs 1");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("the weights weights/lift-euroc.safetensors are not there "
+                                        "(made by lift_slam_train fine-tune"));
+  EXPECT_THAT(outcome.output, HasSubstr("plan        1 runs"));
+}
+
 TEST_F(BenchmarkCommand, ThresholdsArePlanned) {
   Render(SequenceLayout::kKittiOdometry, 4);
   fs::rename(folder_ / "data/sequences/00", folder_ / "data/sequences/05");
@@ -179,6 +196,8 @@ TEST_F(BenchmarkCommand, BadArgumentsAreExplained) {
   fs::create_directories(folder_ / "data");
   ExpectOneSentence(RunProgram(Arguments("kiti")), {"suite 'kiti' is unknown", "robustness"});
   ExpectOneSentence(RunProgram(Arguments("kitti")), {"nothing to run", "sequence 00"});
+  ExpectOneSentence(RunProgram(Arguments("matching")), {"benchmark-features"});
+  ExpectOneSentence(RunProgram(Arguments("rendered")), {"lift_slam render makes some"});
   ExpectOneSentence(RunProgram("benchmark kitti --output " + output_.string()), {"--data"});
 }
 

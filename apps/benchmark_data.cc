@@ -158,7 +158,7 @@ std::string SequenceIdentity(const fs::path& folder) {
 
 BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& dataset) {
   const fs::path folder = PresetFolder();
-  BenchmarkSystem system{name, name, {}, {}};
+  BenchmarkSystem system{name, name, {}, {}, {}};
   for (const fs::path& path :
        {fs::path(name), folder / (name + "." + dataset + ".yaml"), folder / (name + ".yaml")}) {
     if (system.config.empty() && path.extension() == ".yaml" && fs::is_regular_file(path)) {
@@ -174,6 +174,7 @@ BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& 
   }
   for (const std::string& line : ReadLines(system.config)) {
     if (line.starts_with("# title: ")) system.title = line.substr(9);
+    if (line.starts_with("# make: ")) system.making = line.substr(8);
     if (!line.starts_with("# skip: ")) continue;
     std::istringstream words(line.substr(8));
     for (std::string word; words >> word;) system.skipped_sequences.push_back(word);

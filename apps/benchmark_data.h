@@ -27,11 +27,13 @@ int PublishedFrames(const std::string& sequence);
 // wherever the folder lies, so that results outlive a move of the data.
 std::string SequenceIdentity(const std::filesystem::path& folder);
 
-// A system: a file of options, and remarks in its first lines ("# title: ...", "# skip: 00 06").
+// A system: a file of options, and remarks in its first lines ("# title: ...", "# skip: 00 06",
+// "# make: ...": how its weights are made).
 struct BenchmarkSystem {
   std::string name, title;
   std::filesystem::path config;
   std::vector<std::string> skipped_sequences;  // it was trained with them
+  std::string making;                          // of its weights; empty: nothing is said
 };
 
 // The preset for a dataset: NAME.DATASET.yaml where it exists, else NAME.yaml; or a file. Throws

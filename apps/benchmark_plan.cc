@@ -67,6 +67,11 @@ fs::path FindWeights(const fs::path& named, const fs::path& config) {
   return {};
 }
 
+std::string WhereFrom(const std::string& dataset) {
+  return dataset == "kitti" ? "KITTI odometry, grayscale images and ground truth poses"
+                            : "EuRoC MAV, ASL dataset format";
+}
+
 // The revision; of a build that differs from it, or of none, the program itself too.
 std::string ProgramIdentity() {
   const std::string revision = kGitRevision;
@@ -95,8 +100,8 @@ class PlanMaker {
       if (!request_.sequences.empty() && !Contains(request_.sequences, sequence.name)) continue;
       plan_.sequences.push_back(sequence.name);
       if (sequence.folder.empty()) {
-        plan_.missing.push_back(
-            fmt::format("sequence {} is not below {}", sequence.name, request_.data.string()));
+        plan_.missing.push_back(fmt::format("sequence {} is not below {} ({})", sequence.name,
+                                            request_.data.string(), WhereFrom(sequence.dataset)));
       }
       for (const std::string& name : Systems(request_)) AddSystem(name, sequence);
     }
@@ -120,8 +125,9 @@ class PlanMaker {
     const fs::path weights = FindWeights(named, system.config);
     if (!named.empty() && weights.empty()) {
       const std::string sentence =
-          fmt::format("{}: the weights {} are not there (docs/training.md says how to make them)",
-                      system.title, named.string());
+          fmt::format("{}: the weights {} are not there ({})", system.title, named.string(),
+                      system.making.empty() ? "docs/training.md says how to make them"
+                                            : "made by " + system.making);
       if (!Contains(plan_.missing, sentence)) plan_.missing.push_back(sentence);
       return;
     }
@@ -205,6 +211,9 @@ BenchmarkJob JobFromJson(const Json& json) {
 }  // namespace
 
 BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
+  if (request.suite == "matching") {
+    throw InputError("'lift_slam benchmark-features' measures matching, over pairs of images");
+  }
   if (std::ranges::find(kBenchmarkSuites, request.suite) == std::end(kBenchmarkSuites)) {
     throw InputError(fmt::format("suite '{}' is unknown; expected one of {}", request.suite,
                                  fmt::join(kBenchmarkSuites, ", ")));
@@ -213,9 +222,11 @@ BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
   BenchmarkPlan plan = PlanMaker(request).Make();
   if (!plan.jobs.empty()) return plan;
   throw InputError(
-      fmt::format("nothing to run: {}", plan.missing.empty()
-                                            ? "no sequence below " + request.data.string()
-                                            : fmt::format("{}", fmt::join(plan.missing, "; "))));
+      fmt::format("nothing to run: {}",
+                  plan.missing.empty()
+                      ? "no sequence below " + request.data.string() +
+                            (request.suite == "rendered" ? " (lift_slam render makes some)" : "")
+                      : fmt::format("{}", fmt::join(plan.missing, "; "))));
 }
 
 void WriteBenchmarkPlan(const BenchmarkPlan& plan, const fs::path& folder) {
