@@ -109,6 +109,7 @@ TEST_F(BenchmarkCommand, GoesOnAfterAKillAndRepeatsNothing) {
   EXPECT_THAT(outcome.output, HasSubstr(fmt::format("{} done now, {} were done, 0 failed",
                                                     6 - before.size(), before.size())));
   EXPECT_EQ(Finished().size(), 6U);
+  EXPECT_TRUE(FilesIn(output_ / "running").empty()) << "left by the one that was killed";
   for (const auto& [name, time] : times) {
     EXPECT_EQ(fs::last_write_time(output_ / "results" / name / "result.json"), time);
   }
