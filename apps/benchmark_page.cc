@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kStyle = R"css(
 table.results{width:auto}table.results th{white-space:nowrap;padding-right:12px}
-table.results .num{padding:5px 8px;white-space:nowrap}table.results thead th:first-child{color:var(--text);font-weight:600}
+table.results .num{padding:5px 8px;white-space:nowrap}table.results thead th:first-child{vertical-align:bottom;color:var(--text);font-weight:600}
 table.results tbody.others{color:var(--soft)}table.results .source{padding-top:14px;font-size:12.5px;font-style:italic;border-top:2px solid var(--rule)}
 table.results thead .num{white-space:normal;max-width:13em;vertical-align:bottom}
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(440px,1fr));gap:26px 28px;align-items:start}

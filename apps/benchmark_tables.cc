@@ -174,7 +174,8 @@ ResultTable StatisticsTable(const BenchmarkPlan& plan, const BenchmarkCells& cel
 std::vector<std::string> Remarks(const BenchmarkPlan& plan, const std::vector<BenchmarkRun>& runs) {
   std::vector<std::string> remarks = {fmt::format(
       "Means over the runs, revision {}. X: every run failed. -: left out, the system was trained "
-      "with the sequence (ours) or not given (others). ?: not run. (p %): mean coverage where a "
+      "with the sequence (ours) or not given (others). ?: not run. n/a: not measured (no ground "
+      "truth, or no stretch of 100 m). (p %): mean coverage where a "
       "run kept 50 to 90 % of the frames. k/n: runs that succeeded. Bold: best of ours, and of "
       "trajectories given, where all runs succeeded with at least 90 % of the frames. r_rel of the "
       "LIFT-SLAM paper is taken as deg/100 m.",
