@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
+#include "apps/benchmark_external.h"
+#include "apps/benchmark_figures.h"
 #include "apps/benchmark_jobs.h"
 #include "apps/benchmark_plan.h"
+#include "apps/benchmark_results.h"
 #include "apps/benchmark_tables.h"
 #include "apps/exit_code.h"
 #include "lift_slam/util/file.h"
@@ -23,13 +27,41 @@ struct BenchmarkArguments {
   std::vector<std::string> words;  // SUITE, "plan SUITE", "run-job K" or "merge"
   BenchmarkRequest request;
   fs::path output, publications = LIFT_SLAM_PUBLICATIONS;
+  std::vector<std::string> external;  // NAME=FOLDER
   int jobs = 1;
 };
 
+// Each name becomes a system after ours.
+void AddExternal(const BenchmarkArguments& arguments, BenchmarkPlan& plan,
+                 std::vector<BenchmarkRun>& runs) {
+  for (const std::string& argument : arguments.external) {
+    std::vector<BenchmarkRun> more = ReadExternalRuns(argument, plan);
+    const std::string& title = more.front().title;
+    if (std::ranges::find(plan.titles, title) != plan.titles.end()) {
+      throw InputError(fmt::format("--external: there is a system '{}' already", title));
+    }
+    plan.titles.push_back(title);
+    std::ranges::move(more, std::back_inserter(runs));
+  }
+}
+
+void WritePictures(const std::vector<BenchmarkPicture>& pictures, const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);  // of an earlier plan
+  if (pictures.empty()) return;
+  CreateFolder(folder);
+  for (const BenchmarkPicture& picture : pictures) {
+    WriteTextAtomically(folder / picture.file_name, picture.svg_file);
+  }
+}
+
 void Merge(const BenchmarkArguments& arguments) {
-  const BenchmarkPlan plan = ReadBenchmarkPlan(arguments.output);
-  const BenchmarkTables tables =
-      MakeBenchmarkTables(plan, arguments.output, arguments.publications);
+  BenchmarkPlan plan = ReadBenchmarkPlan(arguments.output);
+  std::vector<BenchmarkRun> runs = ReadBenchmarkRuns(plan, arguments.output);
+  AddExternal(arguments, plan, runs);
+  const std::vector<BenchmarkPicture> pictures = MakeBenchmarkPictures(plan, runs);
+  WritePictures(pictures, arguments.output / "figures");
+  const BenchmarkTables tables = MakeBenchmarkTables(plan, runs, arguments.publications, pictures);
   WriteTextAtomically(arguments.output / "tables.md", tables.markdown);
   WriteTextAtomically(arguments.output / "tables.csv", tables.csv);
   WriteTextAtomically(arguments.output / "tables.tex", tables.latex);
@@ -99,6 +131,12 @@ void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
   command.add_option("--frames", request.frames, "Part of every sequence: FIRST:LAST:STEP");
   command.add_option("--set", request.overrides, "KEY=VALUE for every system")
       ->allow_extra_args(false);
+  command
+      .add_option("--external", arguments.external,
+                  "Trajectories of another system, a file for each sequence (00.txt); as NAME in "
+                  "tables and figures")
+      ->type_name("NAME=FOLDER")
+      ->allow_extra_args(false);
   command.add_option("--publications", arguments.publications,
                      "Numbers of others to show beside ours (YAML; '' for none)");
 }
@@ -111,13 +149,13 @@ void AddBenchmarkCommand(CLI::App& app) {
   const auto arguments = std::make_shared<BenchmarkArguments>();
   AddOptions(*command, *arguments);
   command->footer(
-      "Suites: kitti, euroc, rendered, shared (whatever is there), robustness.\n"
+      "Suites: kitti, euroc, rendered, shared (whatever is there), robustness, thresholds.\n"
       "Runs that are finished are never repeated; a benchmark that was stopped goes on.\n"
       "Examples:\n"
       "  lift_slam benchmark kitti --data ~/kitti --output bench --jobs 2\n"
       "  lift_slam benchmark plan euroc --data ~/euroc --output bench\n"
       "  seq 55 | parallel lift_slam benchmark run-job {} --output bench\n"
-      "  lift_slam benchmark merge --output bench");
+      "  lift_slam benchmark merge --output bench --external DeepVO=~/deepvo");
   command->callback([arguments] { Benchmark(*arguments); });
 }
 

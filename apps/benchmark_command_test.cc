@@ -9,6 +9,7 @@
 
 #include "apps/run_test_fixture.h"
 #include "lift_slam/util/file.h"
+#include "lift_slam/visualization/xml_check_for_test.h"
 
 namespace lift_slam {
 namespace {
@@ -19,9 +20,10 @@ using testing::HasSubstr;
 class BenchmarkCommand : public RunCommand {
  protected:
   // `lift_slam benchmark ARGUMENTS` with the smallest settings that still give a map.
-  std::string Arguments(const std::string& what) const {
-    return fmt::format("benchmark {} --data {} --output {} --systems default_orb orb_slam", what,
-                       (folder_ / "data").string(), output_.string());
+  std::string Arguments(const std::string& what,
+                        const std::string& systems = "default_orb orb_slam") const {
+    return fmt::format("benchmark {} --data {} --output {} --systems {}", what,
+                       (folder_ / "data").string(), output_.string(), systems);
   }
   std::set<std::string> Finished() const {
     std::set<std::string> names;
@@ -41,6 +43,13 @@ TEST_F(BenchmarkCommand, RunsKittiAndListsWhatIsMissing) {
   EXPECT_THAT(table, HasSubstr("r_rel [deg/100 m]"));
   EXPECT_THAT(table, HasSubstr("**"));     // the best
   EXPECT_THAT(table, HasSubstr("11.54"));  // of the paper
+  EXPECT_THAT(table, HasSubstr("| 00* |"));
+  EXPECT_THAT(table, HasSubstr("*: of 00 only 40 of 4541 frames were run"));
+  EXPECT_THAT(ReadText(output_ / "tables.tex"), HasSubstr("Algorithm & Metric & 00* & 01"));
+  const std::string page = ReadText(output_ / "tables.html");
+  EXPECT_TRUE(fs::is_regular_file(output_ / "figures/trajectory_00.svg"));
+  EXPECT_THAT(page, HasSubstr("ground truth"));
+  EXPECT_EQ(XmlProblem(page, /*html=*/true), "");
   for (const char* name : {"tables.csv", "tables.tex", "tables.html"}) {
     EXPECT_TRUE(fs::is_regular_file(output_ / name)) << name;
   }
@@ -65,6 +74,13 @@ TEST_F(BenchmarkCommand, RunsEurocJobByJob) {
   const Outcome merged = RunProgram("benchmark merge --output " + output_.string());
   EXPECT_EQ(merged.exit_code, 0) << merged.output;
   EXPECT_THAT(merged.output, HasSubstr("MH_02"));
+  fs::create_directories(folder_ / "other");
+  fs::copy_file(output_ / "results" / *Finished().begin() / "trajectory.tum",
+                folder_ / "other/MH_02_easy.txt");
+  const Outcome joined = RunProgram(fmt::format("benchmark merge --output {} --external Other={}",
+                                                output_.string(), (folder_ / "other").string()));
+  EXPECT_THAT(joined.output, HasSubstr("MH_02, Other | 1/1 | 100.0 | 0.0"));
+  EXPECT_THAT(joined.output, testing::Not(HasSubstr("t_rel [%]")));
   ExpectOneSentence(RunProgram("benchmark run-job 3 --output " + output_.string()),
                     {"a number from 1 to 2"});
 }
@@ -93,15 +109,96 @@ TEST_F(BenchmarkCommand, GoesOnAfterAKillAndRepeatsNothing) {
   EXPECT_THAT(outcome.output, HasSubstr(fmt::format("{} done now, {} were done, 0 failed",
                                                     6 - before.size(), before.size())));
   EXPECT_EQ(Finished().size(), 6U);
+  EXPECT_TRUE(FilesIn(output_ / "running").empty()) << "left by the one that was killed";
   for (const auto& [name, time] : times) {
     EXPECT_EQ(fs::last_write_time(output_ / "results" / name / "result.json"), time);
   }
+}
+
+TEST_F(BenchmarkCommand, ConditionsBecomeRowsAndAChart) {
+  Render(SequenceLayout::kKittiOdometry, 40);
+  const Outcome outcome = RunProgram(Arguments("robustness", "default_orb") +
+                                     " --runs 1 --conditions none salt-pepper=0.05");
+  ExpectOneSentence(outcome, {"nothing to run", "sequence 03"});
+  fs::rename(folder_ / "data/sequences/00", folder_ / "data/sequences/06");
+  fs::rename(folder_ / "data/poses/00.txt", folder_ / "data/poses/06.txt");
+  const Outcome found = RunProgram(Arguments("robustness", "default_orb") +
+                                   " --runs 1 --conditions none salt-pepper=0.05");
+  ASSERT_EQ(found.exit_code, 0) << found.output;
+  EXPECT_THAT(found.output, HasSubstr("2 done now, 0 were done, 0 failed"));
+  EXPECT_THAT(found.output, HasSubstr("| 06* salt-pepper=0.05 | **"));
+  EXPECT_THAT(found.output,
+              HasSubstr("| ours, ORB features | ORB-SLAM [LIFT-SLAM paper, Table 4]"));
+  EXPECT_THAT(ReadText(output_ / "figures/ate_06.svg"), HasSubstr(">salt-pepper=0.05<"));
+}
+
+TEST_F(BenchmarkCommand, TrajectoriesOfOthersJoin) {
+  Render(SequenceLayout::kKittiOdometry, 40);
+  ASSERT_EQ(RunProgram(Arguments("kitti", "default_orb") + " --runs 1").exit_code, 0);
+  fs::create_directories(folder_ / "perfect");
+  fs::copy_file(folder_ / "data/poses/00.txt", folder_ / "perfect/00.txt");
+  fs::create_directories(folder_ / "part");  // by time, of the first three quarters
+  const std::vector<std::string> lines =
+      ReadLines(output_ / "results" / *Finished().begin() / "trajectory_aligned.tum");
+  std::string part;
+  for (std::size_t i = 0; i < 31; ++i) part += lines[i] + "\n";
+  WriteTextAtomically(folder_ / "part/00.tum", part);
+  const std::string merge = "benchmark merge --output " + output_.string();
+  const Outcome outcome = RunProgram(fmt::format(
+      "{0} --external Perfect={1}/perfect --external Part={1}/part", merge, folder_.string()));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("| Perfect | **0.000** | ? |"));
+  EXPECT_THAT(outcome.output, HasSubstr("(75 %) |"));
+  EXPECT_THAT(ReadText(output_ / "figures/trajectory_00.svg"), HasSubstr(">Perfect<"));
+
+  ExpectOneSentence(RunProgram(merge + " --external Perfect"), {"expected NAME=FOLDER"});
+  ExpectOneSentence(RunProgram(merge + " --external P=" + (folder_ / "data").string()),
+                    {"no trajectory of a sequence", "00.txt"});
+  WriteTextAtomically(folder_ / "perfect/00.txt", "1 2 3\n");
+  ExpectOneSentence(RunProgram(fmt::format("{} --external P={}/perfect", merge, folder_.string())),
+                    {"00.txt"});
+}
+
+TEST_F(BenchmarkCommand, ThresholdsThatVaryAreDrawn) {
+  Render(SequenceLayout::kKittiOdometry, 40);
+  ASSERT_EQ(RunProgram(Arguments("kitti", "default_orb") + " --runs 1").exit_code, 0);
+  WriteTextAtomically(output_ / "results" / *Finished().begin() / "frames.csv",
+                      "frame,low_threshold,high_threshold\n0,0,0\n1,50,100\n2,55,110\n");
+  ASSERT_EQ(RunProgram("benchmark merge --output " + output_.string()).exit_code, 0);
+  const std::string svg = ReadText(output_ / "figures/thresholds_00_ours_ORB_features.svg");
+  EXPECT_THAT(svg, HasSubstr(">high (guided)<"));
+  EXPECT_EQ(XmlProblem(svg), "");
+}
+
+TEST_F(BenchmarkCommand, MissingWeightsAreListedWithTheirMaking) {
+  Render(SequenceLayout::kKittiOdometry, 4);
+  const Outcome outcome =
+      RunProgram(Arguments("plan kitti", "default_orb adaptive_tuned_euroc") + " --runs 1");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("the weights weights/lift-euroc.safetensors are not there "
+                                        "(made by lift_slam_train fine-tune"));
+  EXPECT_THAT(outcome.output, HasSubstr("plan        1 runs"));
+}
+
+TEST_F(BenchmarkCommand, ThresholdsArePlanned) {
+  Render(SequenceLayout::kKittiOdometry, 4);
+  fs::rename(folder_ / "data/sequences/00", folder_ / "data/sequences/05");
+  const Outcome outcome =
+      RunProgram(fmt::format("benchmark plan thresholds --data {}/data --output {} --runs 2",
+                             folder_.string(), output_.string()));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("missing     sequence MH_01"));
+  EXPECT_THAT(outcome.output, HasSubstr("plan        8 runs"));
+  const std::string plan = ReadText(output_ / "plan.json");
+  EXPECT_THAT(plan, HasSubstr("LIFT-SLAM, TH_LOW 1, TH_HIGH 1.5"));
 }
 
 TEST_F(BenchmarkCommand, BadArgumentsAreExplained) {
   fs::create_directories(folder_ / "data");
   ExpectOneSentence(RunProgram(Arguments("kiti")), {"suite 'kiti' is unknown", "robustness"});
   ExpectOneSentence(RunProgram(Arguments("kitti")), {"nothing to run", "sequence 00"});
+  ExpectOneSentence(RunProgram(Arguments("matching")), {"benchmark-features"});
+  ExpectOneSentence(RunProgram(Arguments("rendered")), {"lift_slam render makes some"});
   ExpectOneSentence(RunProgram("benchmark kitti --output " + output_.string()), {"--data"});
 }
 

@@ -10,6 +10,7 @@
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
+#include "lift_slam/util/sha256.h"
 
 namespace lift_slam {
 namespace {
@@ -21,7 +22,14 @@ constexpr const char* kEuroc[] = {"MH_01", "MH_02", "MH_03", "MH_04", "MH_05", "
                                   "V1_02", "V1_03", "V2_01", "V2_02", "V2_03"};
 constexpr const char* kRobustnessKitti[] = {"03", "06", "07", "10"};
 constexpr const char* kRobustnessEuroc[] = {"MH_02"};
+// The two sequences of the paper's Table 1.
+constexpr const char* kThresholdsKitti[] = {"05"};
+constexpr const char* kThresholdsEuroc[] = {"MH_01"};
+// Images of each sequence, in the order of kKitti and kEuroc.
+constexpr int kKittiFrames[] = {4541, 1101, 4661, 801, 271, 2761, 1101, 1101, 4071, 1591, 1201};
+constexpr int kEurocFrames[] = {3682, 3040, 2700, 2033, 2273, 2912, 1710, 2149, 2280, 2348, 1922};
 constexpr int kSearchDepth = 6;
+constexpr std::uintmax_t kMaxTextBytes = 64U << 20U;
 
 // "kitti", "euroc" or nothing, by what lies in the folder.
 std::string DatasetOf(const fs::path& folder) {
@@ -74,6 +82,13 @@ void Choose(const Names& names, const std::string& dataset,
   }
 }
 
+bool IsSmallText(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  const bool is_text = extension == ".txt" || extension == ".csv" || extension == ".yaml" ||
+                       extension == ".yml" || extension == ".xml";
+  return is_text && fs::file_size(file) <= kMaxTextBytes;
+}
+
 fs::path PresetFolder() {
   const char* folder = std::getenv("LIFT_SLAM_SYSTEMS_DIR");
   return folder != nullptr && *folder != '\0' ? folder : LIFT_SLAM_SYSTEMS;
@@ -104,6 +119,10 @@ std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
     Choose(kRobustnessKitti, "kitti", found, chosen);
     Choose(kRobustnessEuroc, "euroc", found, chosen);
   }
+  if (suite == "thresholds") {
+    Choose(kThresholdsEuroc, "euroc", found, chosen);
+    Choose(kThresholdsKitti, "kitti", found, chosen);
+  }
   if (suite == "rendered" || suite == "shared") {
     for (BenchmarkSequence& sequence : found) {
       if (suite == "rendered") sequence.name = RenderedName(sequence.folder);
@@ -113,9 +132,33 @@ std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
   return chosen;
 }
 
+int PublishedFrames(const std::string& sequence) {
+  const auto frames_in = [&](const auto& names, const auto& frames) {
+    const auto found = std::ranges::find(names, sequence);
+    return found == std::end(names) ? 0 : frames[found - std::begin(names)];
+  };
+  return std::max(frames_in(kKitti, kKittiFrames), frames_in(kEuroc, kEurocFrames));
+}
+
+std::string SequenceIdentity(const fs::path& folder) {
+  std::set<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.insert(entry.path());
+  }
+  std::string text;
+  for (const fs::path& file : files) {
+    text += fmt::format("{} {}\n", file.lexically_relative(folder).string(), fs::file_size(file));
+    if (IsSmallText(file)) text += ReadText(file);
+  }
+  const fs::path truth =
+      folder.parent_path().parent_path() / "poses" / (folder.filename().string() + ".txt");
+  if (fs::is_regular_file(truth)) text += ReadText(truth);
+  return Sha256Hex(text);
+}
+
 BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& dataset) {
   const fs::path folder = PresetFolder();
-  BenchmarkSystem system{name, name, {}, {}};
+  BenchmarkSystem system{name, name, {}, {}, {}};
   for (const fs::path& path :
        {fs::path(name), folder / (name + "." + dataset + ".yaml"), folder / (name + ".yaml")}) {
     if (system.config.empty() && path.extension() == ".yaml" && fs::is_regular_file(path)) {
@@ -131,6 +174,7 @@ BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& 
   }
   for (const std::string& line : ReadLines(system.config)) {
     if (line.starts_with("# title: ")) system.title = line.substr(9);
+    if (line.starts_with("# make: ")) system.making = line.substr(8);
     if (!line.starts_with("# skip: ")) continue;
     std::istringstream words(line.substr(8));
     for (std::string word; words >> word;) system.skipped_sequences.push_back(word);

@@ -18,11 +18,22 @@ struct BenchmarkSequence {
 std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
                                                       const std::filesystem::path& data);
 
-// A system: a file of options, and remarks in its first lines ("# title: ...", "# skip: 00 06").
+// Images of a sequence of KITTI odometry ("00") or EuRoC ("MH_01", cam0) as published; 0: not
+// known.
+int PublishedFrames(const std::string& sequence);
+
+// SHA-256 of what a sequence's folder holds: names and sizes of all files, and the content of the
+// small text files (calibration, times, truth); for KITTI of ../../poses/NAME.txt too. The same
+// wherever the folder lies, so that results outlive a move of the data.
+std::string SequenceIdentity(const std::filesystem::path& folder);
+
+// A system: a file of options, and remarks in its first lines ("# title: ...", "# skip: 00 06",
+// "# make: ...": how its weights are made).
 struct BenchmarkSystem {
   std::string name, title;
   std::filesystem::path config;
   std::vector<std::string> skipped_sequences;  // it was trained with them
+  std::string making;                          // of its weights; empty: nothing is said
 };
 
 // The preset for a dataset: NAME.DATASET.yaml where it exists, else NAME.yaml; or a file. Throws

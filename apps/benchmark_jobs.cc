@@ -6,6 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <mutex>
@@ -19,6 +21,7 @@
 #include "apps/stop_signal.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/number_text.h"
 #include "lift_slam/util/parallel_for.h"
 
 namespace lift_slam {
@@ -78,6 +81,29 @@ bool IsComplete(const fs::path& folder) {
   return json.is_object() && !json.value("interrupted", true);
 }
 
+std::string HostName() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+// Two processes that share a folder of results keep apart.
+std::string OwnMark() { return fmt::format(".{}.{}", HostName(), getpid()); }
+
+// Folders of processes of this host that ended without putting them into place.
+void RemoveAbandoned(const fs::path& running) {
+  const std::string host = "." + HostName() + ".";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(running, error)) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t at = name.find(host);
+    if (at == std::string::npos) continue;
+    const auto pid = ParseIndex(name.substr(at + host.size()));
+    if (pid && kill(static_cast<pid_t>(*pid), 0) != 0 && errno == ESRCH) {
+      fs::remove_all(entry.path(), error);
+    }
+  }
+}
+
 void MoveFolder(const fs::path& from, const fs::path& to) {
   std::error_code error;
   CreateFolder(to.parent_path());
@@ -92,13 +118,20 @@ void MoveFolder(const fs::path& from, const fs::path& to) {
 JobOutcome RunJob(const BenchmarkJob& job, const fs::path& folder, const StopSignal& stop) {
   if (IsFinished(folder, job)) return JobOutcome::kWasFinished;
   if (stop.Requested()) return JobOutcome::kStopped;
-  const fs::path running = folder / "running" / job.hash;
+  const fs::path running = folder / "running" / (job.hash + OwnMark());
   std::error_code error;
-  fs::remove_all(running, error);  // of a benchmark that was killed
+  fs::remove_all(running, error);
   CreateFolder(running);
   const auto exit_code = RunChild(CommandLine(job, running), running / "console.txt", stop);
-  if (stop.Requested()) return JobOutcome::kStopped;
+  if (stop.Requested()) {
+    fs::remove_all(running, error);
+    return JobOutcome::kStopped;
+  }
   const bool has_result = exit_code && (*exit_code == kDone || *exit_code == kNoTrajectory);
+  if (IsFinished(folder, job)) {  // another process was faster
+    fs::remove_all(running, error);
+    return JobOutcome::kWasFinished;
+  }
   if (has_result && IsComplete(running)) {
     MoveFolder(running, ResultFolder(folder, job));
     return JobOutcome::kFinished;
@@ -132,6 +165,7 @@ BatchResult RunJobs(const std::vector<BenchmarkJob>& jobs, const fs::path& folde
   BatchResult batch;
   batch.were_finished = static_cast<int>(jobs.size() - open_jobs.size());
   if (open_jobs.empty()) return batch;
+  RemoveAbandoned(folder / "running");
   const StopSignal stop;
   ProgressBar bar;
   Progress progress;

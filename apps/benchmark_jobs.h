@@ -18,7 +18,8 @@ struct BatchResult {
 };
 
 // Runs the jobs that have no results yet, `num_parallel` at a time, each as `lift_slam run` in a
-// process of its own below `folder`/running; a finished job's folder is renamed into place. What a
+// process of its own below `folder`/running (a folder for each process: several may share the work,
+// and what killed ones left is removed); a finished job's folder is renamed into place. What a
 // job prints is in console.txt; the folder of one that failed goes to `folder`/failed and is tried
 // again the next time. SIGINT and SIGTERM end the batch; unfinished jobs begin anew the next time.
 BatchResult RunJobs(const std::vector<BenchmarkJob>& jobs, const std::filesystem::path& folder,

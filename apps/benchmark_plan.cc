@@ -31,6 +31,9 @@ const std::vector<std::string> kRobustnessConditions = {
 std::vector<std::string> Systems(const BenchmarkRequest& request) {
   if (!request.systems.empty()) return request.systems;
   if (request.suite == "robustness") return {"orb_slam", "adaptive_tuned_euroc", "adaptive"};
+  if (request.suite == "thresholds") {
+    return {"lift_slam_100_200", "lift_slam_100_150", "lift_slam_200_300", "adaptive"};
+  }
   return {"orb_slam",
           "lift_slam",
           "lift_slam_tuned_kitti",
@@ -64,11 +67,24 @@ fs::path FindWeights(const fs::path& named, const fs::path& config) {
   return {};
 }
 
+std::string WhereFrom(const std::string& dataset) {
+  return dataset == "kitti" ? "KITTI odometry, grayscale images and ground truth poses"
+                            : "EuRoC MAV, ASL dataset format";
+}
+
+// The revision; of a build that differs from it, or of none, the program itself too.
+std::string ProgramIdentity() {
+  const std::string revision = kGitRevision;
+  if (!revision.ends_with("-dirty") && revision != "unknown") return revision;
+  return revision + " " + Sha256Hex(ReadText("/proc/self/exe"));
+}
+
 class PlanMaker {
  public:
   explicit PlanMaker(const BenchmarkRequest& request) : request_(request) {
     plan_.suite = request.suite;
     plan_.revision = kGitRevision;
+    plan_.frames = request.frames;
     plan_.conditions = Conditions(request);
   }
 
@@ -84,8 +100,8 @@ class PlanMaker {
       if (!request_.sequences.empty() && !Contains(request_.sequences, sequence.name)) continue;
       plan_.sequences.push_back(sequence.name);
       if (sequence.folder.empty()) {
-        plan_.missing.push_back(
-            fmt::format("sequence {} is not below {}", sequence.name, request_.data.string()));
+        plan_.missing.push_back(fmt::format("sequence {} is not below {} ({})", sequence.name,
+                                            request_.data.string(), WhereFrom(sequence.dataset)));
       }
       for (const std::string& name : Systems(request_)) AddSystem(name, sequence);
     }
@@ -109,8 +125,9 @@ class PlanMaker {
     const fs::path weights = FindWeights(named, system.config);
     if (!named.empty() && weights.empty()) {
       const std::string sentence =
-          fmt::format("{}: the weights {} are not there (docs/training.md says how to make them)",
-                      system.title, named.string());
+          fmt::format("{}: the weights {} are not there ({})", system.title, named.string(),
+                      system.making.empty() ? "docs/training.md says how to make them"
+                                            : "made by " + system.making);
       if (!Contains(plan_.missing, sentence)) plan_.missing.push_back(sentence);
       return;
     }
@@ -132,15 +149,21 @@ class PlanMaker {
                          request_.overrides,
                          request_.frames,
                          ""};
-        const std::string identity = fmt::format(
-            "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", OptionsToYaml(MakeOptionRoot(options)),
-            WeightsHash(weights), plan_.revision, job.sequence, fs::canonical(job.source).string(),
-            job.distortion, job.frames, seed,
-            job.system);  // two systems alike still have a folder each
+        const std::string identity =
+            fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}",
+                        OptionsToYaml(MakeOptionRoot(options)), WeightsHash(weights), program_,
+                        job.sequence, IdentityOf(job.source), job.distortion, job.frames, seed,
+                        job.system);  // two systems alike still have a folder each
         job.hash = Sha256Hex(identity).substr(0, 16);
         plan_.jobs.push_back(job);
       }
     }
+  }
+
+  const std::string& IdentityOf(const fs::path& sequence) {
+    std::string& identity = sequence_identities_[sequence];
+    if (identity.empty()) identity = SequenceIdentity(sequence);
+    return identity;
   }
 
   const std::string& WeightsHash(const fs::path& weights) {
@@ -151,7 +174,8 @@ class PlanMaker {
 
   const BenchmarkRequest& request_;
   BenchmarkPlan plan_;
-  std::map<fs::path, std::string> weight_hashes_;
+  const std::string program_ = ProgramIdentity();
+  std::map<fs::path, std::string> weight_hashes_, sequence_identities_;
 };
 
 Json ToJson(const BenchmarkJob& job) {
@@ -187,6 +211,9 @@ BenchmarkJob JobFromJson(const Json& json) {
 }  // namespace
 
 BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
+  if (request.suite == "matching") {
+    throw InputError("'lift_slam benchmark-features' measures matching, over pairs of images");
+  }
   if (std::ranges::find(kBenchmarkSuites, request.suite) == std::end(kBenchmarkSuites)) {
     throw InputError(fmt::format("suite '{}' is unknown; expected one of {}", request.suite,
                                  fmt::join(kBenchmarkSuites, ", ")));
@@ -195,16 +222,18 @@ BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
   BenchmarkPlan plan = PlanMaker(request).Make();
   if (!plan.jobs.empty()) return plan;
   throw InputError(
-      fmt::format("nothing to run: {}", plan.missing.empty()
-                                            ? "no sequence below " + request.data.string()
-                                            : fmt::format("{}", fmt::join(plan.missing, "; "))));
+      fmt::format("nothing to run: {}",
+                  plan.missing.empty()
+                      ? "no sequence below " + request.data.string() +
+                            (request.suite == "rendered" ? " (lift_slam render makes some)" : "")
+                      : fmt::format("{}", fmt::join(plan.missing, "; "))));
 }
 
 void WriteBenchmarkPlan(const BenchmarkPlan& plan, const fs::path& folder) {
-  Json json = {{"suite", plan.suite},           {"revision", plan.revision},
-               {"titles", plan.titles},         {"sequences", plan.sequences},
-               {"conditions", plan.conditions}, {"skipped", plan.skipped},
-               {"missing", plan.missing},       {"jobs", Json::array()}};
+  Json json = {
+      {"suite", plan.suite},     {"revision", plan.revision},   {"frames", plan.frames},
+      {"titles", plan.titles},   {"sequences", plan.sequences}, {"conditions", plan.conditions},
+      {"skipped", plan.skipped}, {"missing", plan.missing},     {"jobs", Json::array()}};
   for (const BenchmarkJob& job : plan.jobs) json["jobs"].push_back(ToJson(job));
   WriteTextAtomically(folder / "plan.json", json.dump(1) + "\n");
 }
@@ -217,6 +246,7 @@ BenchmarkPlan ReadBenchmarkPlan(const fs::path& folder) {
     BenchmarkPlan plan;
     plan.suite = json.at("suite").get<std::string>();
     plan.revision = json.at("revision").get<std::string>();
+    plan.frames = json.value("frames", "");
     plan.titles = json.at("titles").get<std::vector<std::string>>();
     plan.sequences = json.at("sequences").get<std::vector<std::string>>();
     plan.conditions = json.at("conditions").get<std::vector<std::string>>();

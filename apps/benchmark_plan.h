@@ -28,8 +28,8 @@ struct BenchmarkJob {
   std::filesystem::path weights;  // empty: those that ship
   std::vector<std::string> overrides;
   std::string frames;
-  // SHA-256 of settings, weights, program revision, sequence, seed and distortion, 16 digits: the
-  // name of the folder of results.
+  // SHA-256 of settings, weights, program, content of the sequence, part of it, seed and
+  // distortion, 16 digits: the name of the folder of results.
   std::string hash;
 
   std::string Condition() const { return distortion.empty() ? "none" : distortion; }
@@ -37,6 +37,7 @@ struct BenchmarkJob {
 
 struct BenchmarkPlan {
   std::string suite, revision;
+  std::string frames;  // part of every sequence; empty: all of it
   std::vector<std::string> titles, sequences, conditions;  // in the order of the tables
   std::vector<BenchmarkJob> jobs;
   // "TITLE|SEQUENCE" that a preset leaves out, since it was trained with the sequence.
@@ -44,8 +45,8 @@ struct BenchmarkPlan {
   std::vector<std::string> missing;  // sentences: sequences and weights that are not there
 };
 
-inline constexpr const char* kBenchmarkSuites[] = {"kitti", "euroc", "rendered", "shared",
-                                                   "robustness"};
+inline constexpr const char* kBenchmarkSuites[] = {"kitti",  "euroc",      "rendered",
+                                                   "shared", "robustness", "thresholds"};
 
 // Throws InputError for an unknown suite, system or distortion, and when nothing can be run.
 BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request);

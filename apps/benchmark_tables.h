@@ -2,22 +2,29 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "apps/benchmark_figures.h"
 #include "apps/benchmark_plan.h"
+#include "apps/benchmark_results.h"
 
 namespace lift_slam {
 
 // Tables of a benchmark, one for each figure (ATE RMSE in m, t_rel in %, r_rel in deg/100 m):
-// a row a system, a column a sequence and condition, means over the runs, best of ours in bold
-// (only where all runs kept at least 90 % of the frames), other publications below; then all
-// statistics. Marks: X all runs failed, "-" left out on purpose, "?" not run yet, "(p %)" mean
-// coverage of a row with partial runs, "k/n" runs that succeeded.
+// a row a system, a column a sequence, means over the runs, best of ours in bold (only where all
+// runs kept at least 90 % of the frames), other publications below. With several conditions a row
+// is a sequence and condition and a column a system (the paper's Table 4), best of the row in bold.
+// Last all statistics. Marks: X all runs failed, "-" left out on purpose, "?" not run yet, "(p %)"
+// mean coverage of a row with partial runs, "k/n" runs that succeeded.
 struct BenchmarkTables {
-  std::string markdown, csv, latex, html;
+  std::string markdown, csv, latex, html;  // html: a page, with the pictures
 };
 
+// `runs`: those of the plan and of systems from outside, whose titles are in plan.titles.
 // `publications`: a file as configs/paper_results.yaml; empty: none. Throws InputError.
-BenchmarkTables MakeBenchmarkTables(const BenchmarkPlan& plan, const std::filesystem::path& folder,
-                                    const std::filesystem::path& publications);
+BenchmarkTables MakeBenchmarkTables(const BenchmarkPlan& plan,
+                                    const std::vector<BenchmarkRun>& runs,
+                                    const std::filesystem::path& publications,
+                                    const std::vector<BenchmarkPicture>& pictures);
 
 }  // namespace lift_slam
