@@ -28,7 +28,7 @@ struct RunArguments {
   std::string features, weights, vocabulary;  // empty: as the options say
   std::optional<int> seed;
   std::string mode;
-  MapFiles maps;
+  RunFiles files;
   std::string distort;  // empty: images as they are
 };
 
@@ -89,8 +89,8 @@ FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
     finished.settings.emplace_back("distortion", ToText(Distortions(arguments)));
   }
   if (info.ground_truth) finished.settings.emplace_back("ground truth", info.ground_truth->source);
-  if (!arguments.maps.load.empty()) {
-    finished.settings.emplace_back("loaded map", arguments.maps.load.string());
+  if (!arguments.files.maps.load.empty()) {
+    finished.settings.emplace_back("loaded map", arguments.files.maps.load.string());
   }
   for (std::size_t i = 0; i < record.corrections.size(); ++i) {
     const CalibrationCorrection& correction = record.corrections[i];
@@ -126,7 +126,7 @@ void PrintSummary(const FinishedRun& finished, const std::filesystem::path& outp
 
 void Run(const RunArguments& arguments) {
   ProgramOptions options = EffectiveOptions(arguments);
-  arguments.maps.Check();
+  arguments.files.maps.Check();
   const std::vector<ImageDistortion> distortions = Distortions(arguments);
   auto sequence = OpenSequence(arguments.sequence.source, arguments.sequence.Options());
   PrepareOutputFolder(arguments.output);
@@ -138,7 +138,7 @@ void Run(const RunArguments& arguments) {
   DisableImageThreads();
 
   const SlamRun run =
-      RunSlam(std::move(sequence), options, arguments.output, arguments.maps, log, distortions);
+      RunSlam(std::move(sequence), options, arguments.output, arguments.files, log, distortions);
   const FinishedRun finished = Conclude(arguments, info, run.record, options);
   WriteRunOutputs(finished, arguments.output, options.outputs);
   PrintSummary(finished, arguments.output);
@@ -171,12 +171,18 @@ void AddRunCommand(CLI::App& app) {
   arguments->config.AddTo(*command);
   command->add_option("--seed", arguments->seed, "Of everything random (default 0)");
   command->add_option("--mode", arguments->mode, "sequential or threaded (default)");
-  command->add_option("--save-map", arguments->maps.save, "Keep the run's maps (.liftmap)")
+  command->add_option("--save-map", arguments->files.maps.save, "Keep the run's maps (.liftmap)")
       ->type_name("FILE");
-  command->add_option("--load-map", arguments->maps.load, "Go on in the maps of an earlier run")
+  command
+      ->add_option("--load-map", arguments->files.maps.load, "Go on in the maps of an earlier run")
       ->type_name("FILE");
-  command->add_flag("--localization-only", arguments->maps.localization_only,
+  command->add_flag("--localization-only", arguments->files.maps.localization_only,
                     "Poses in the loaded maps alone, which are not changed");
+  command
+      ->add_option("--feature-cache", arguments->files.feature_cache,
+                   "Folder that keeps LIFT's features of every image (0.5 MB each): further runs "
+                   "find them there")
+      ->type_name("FOLDER");
   command
       ->add_option("--distort", arguments->distort,
                    "Damage to every image before anything else, such as gamma=0.25, q1, "

@@ -146,6 +146,18 @@ void LoadMaps(const std::filesystem::path& path, const FramePreparer& preparer,
                        has_other_words ? " (made with another vocabulary)" : ""));
 }
 
+std::shared_ptr<FeatureCache> OpenFeatureCache(const std::filesystem::path& folder) {
+  return folder.empty() ? nullptr : std::make_shared<FeatureCache>(folder);
+}
+
+void LogCache(const FeatureCache::Statistics& statistics, RunLog& log) {
+  log.Info(fmt::format("feature cache: images found {}, made {}", statistics.num_found,
+                       statistics.num_made));
+  if (!statistics.write_error.empty()) {
+    log.Warning("features are no longer kept: " + statistics.write_error);
+  }
+}
+
 // Why they could not be saved, if so.
 std::string SaveMaps(const std::filesystem::path& path, const MapFileInfo& info,
                      const RunRecord& record, SlamSystem& system, RunLog& log) {
@@ -183,8 +195,9 @@ void MapFiles::Check() const {
 }
 
 SlamRun RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
-                const std::filesystem::path& folder, const MapFiles& maps, RunLog& log,
+                const std::filesystem::path& folder, const RunFiles& files, RunLog& log,
                 const std::vector<ImageDistortion>& distortions) {
+  const MapFiles& maps = files.maps;
   const SequenceInfo info = sequence->info();
   if (options.mode == RunMode::kThreaded) {
     sequence = std::make_unique<PrefetchingSequence>(std::move(sequence));
@@ -192,7 +205,8 @@ SlamRun RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& option
   SlamOptions slam = options.slam;
   slam.seed = options.seed;
   slam.localization_only = maps.localization_only;
-  auto extractor = CreateFeatureExtractor(slam.features);
+  const auto cache = OpenFeatureCache(files.feature_cache);
+  auto extractor = CreateFeatureExtractor(slam.features, cache);
   if (const std::string notice = extractor->Notice(); !notice.empty()) log.Warning(notice);
   const DescriptorKind kind = extractor->descriptor_kind();
   const VocabularyChoice places = ChooseVocabulary(slam.loop_closing, kind);
@@ -219,6 +233,7 @@ SlamRun RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& option
                }},
               preparer, system);
   observer.Finish();
+  if (cache) LogCache(cache->statistics(), log);
   SlamRun run{system.Finish(), {}};
   RunRecord& record = run.record;
   record.wall_time_s = timer.ElapsedMs() * 1e-3;

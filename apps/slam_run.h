@@ -20,6 +20,12 @@ struct MapFiles {
   void Check() const;
 };
 
+// What a run keeps in files besides its results.
+struct RunFiles {
+  MapFiles maps;
+  std::filesystem::path feature_cache;  // folder; empty: none
+};
+
 struct SlamRun {
   RunRecord record;
   std::string save_error;  // why the maps could not be saved; empty: they were, or need not be
@@ -29,7 +35,7 @@ struct SlamRun {
 // comes, and refusals in the log. Every image goes through the distortions first. Ends early, with
 // everything so far, on SIGINT or SIGTERM. Maps that cannot be saved do not take the rest along.
 SlamRun RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& options,
-                const std::filesystem::path& folder, const MapFiles& maps, RunLog& log,
+                const std::filesystem::path& folder, const RunFiles& files, RunLog& log,
                 const std::vector<ImageDistortion>& distortions = {});
 
 }  // namespace lift_slam

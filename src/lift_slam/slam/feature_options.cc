@@ -1,14 +1,37 @@
 #include "lift_slam/slam/feature_options.h"
 
+#include <utility>
+
 #include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/features/orb/orb_extractor.h"
+#include "lift_slam/util/option_root.h"
+#include "lift_slam/util/option_writer.h"
 
 namespace lift_slam {
+namespace {
 
-std::unique_ptr<FeatureExtractor> CreateFeatureExtractor(const FeatureOptions& options) {
+// Without what does not change the features themselves.
+std::string IdentityOf(LiftExtractorOptions options, const LiftExtractor& extractor) {
+  const LiftExtractorOptions defaults;
+  options.num_threads = defaults.num_threads;
+  options.sigma_px = defaults.sigma_px;
+  options.low_threshold = defaults.low_threshold;
+  options.high_threshold = defaults.high_threshold;
+  options.precision = extractor.precision().used;
+  return extractor.descriptor_kind().name + '\n' + OptionsToYaml(MakeOptionRoot(options));
+}
+
+}  // namespace
+
+std::unique_ptr<FeatureExtractor> CreateFeatureExtractor(const FeatureOptions& options,
+                                                         std::shared_ptr<FeatureCache> cache) {
   if (options.type == FeatureType::kOrb) return CreateOrbExtractor(options.orb);
-  return CreateLiftExtractor(ReadLiftWeightsOrDefault(options.lift_weights), options.lift);
+  auto lift =
+      std::make_unique<LiftExtractor>(ReadLiftWeightsOrDefault(options.lift_weights), options.lift);
+  if (!cache) return lift;
+  std::string identity = IdentityOf(options.lift, *lift);
+  return WithCache(std::move(lift), std::move(identity), std::move(cache));
 }
 
 }  // namespace lift_slam

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "lift_slam/features/feature_cache.h"
 #include "lift_slam/features/feature_extractor.h"
 #include "lift_slam/features/lift/lift_options.h"
 #include "lift_slam/features/orb/orb_options.h"
@@ -20,7 +21,9 @@ struct FeatureOptions {
   LiftExtractorOptions lift = {};
 };
 
-// Throws InputError for options out of range, and for weights that are missing or damaged.
-std::unique_ptr<FeatureExtractor> CreateFeatureExtractor(const FeatureOptions& options);
+// Throws InputError for options out of range, and for weights that are missing or damaged. With a
+// cache, LIFT's features of images seen before come from there; ORB's are made as fast as read.
+std::unique_ptr<FeatureExtractor> CreateFeatureExtractor(
+    const FeatureOptions& options, std::shared_ptr<FeatureCache> cache = nullptr);
 
 }  // namespace lift_slam

@@ -40,6 +40,28 @@ TEST_F(LiftRun, IsTheSameEveryTime) {
   EXPECT_TRUE(SamePoses(run.final_trajectory, RunSynthetic(sequence, options).final_trajectory));
 }
 
+TEST_F(LiftRun, IsTheSameWithFeaturesFromACache) {
+  const auto sequence = SmallSequence(SyntheticPath::kStreetDrive, 6, 10.0);
+  FeatureOptions options = Untrained().slam.features;
+  const auto cache = std::make_shared<FeatureCache>(folder_ / "cache");
+  const auto extract = [&](std::shared_ptr<FeatureCache> from) {
+    return CreateFeatureExtractor(options, std::move(from))->Extract(SyntheticSequence(sequence).Render(3));
+  };
+  const FeatureSet made = extract(nullptr), kept = extract(cache);
+  options.lift.sigma_px = 1.0;  // changes what a position weighs, not the features
+  const FeatureSet found = extract(cache);
+  EXPECT_EQ(cache->statistics().num_found, 1);
+  ASSERT_EQ(found.keypoints.size(), made.keypoints.size());
+  ASSERT_GT(found.keypoints.size(), 100U);
+  for (std::size_t i = 0; i < made.keypoints.size(); ++i) {
+    EXPECT_EQ(found.keypoints[i].x, made.keypoints[i].x);
+    EXPECT_TRUE(std::ranges::equal(found.descriptors.row(i), made.descriptors.row(i)));
+  }
+  options.lift.max_features = 300;
+  extract(cache);
+  EXPECT_EQ(cache->statistics().num_made, 2);
+}
+
 TEST_F(LiftRun, AdaptiveThresholdsAreRecordedForEveryTrackedFrame) {
   TestRunOptions options = Untrained();
   options.slam.matching.thresholds = ThresholdMode::kAdaptive;
