@@ -28,7 +28,7 @@ std::optional<ReferencePatch> CutReferencePatch(const ImagePyramid& image,
 struct PatchAlignmentOptions {
   bool enabled = true;
   double max_shift_px = 2.0;           // from the detected place, in pixels of the patch
-  double max_residual = 0.5;           // RMS of the difference over the patch's contrast (RMS)
+  double max_residual = 0.2;           // RMS of the difference over the patch's contrast (RMS)
   double min_contrast = 3.0;           // RMS of the patch, grey levels
   double max_position_sigma_px = 0.2;  // predicted from residual and texture, pixels of the patch
   int max_iterations = 12;
