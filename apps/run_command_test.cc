@@ -109,8 +109,9 @@ TEST_F(RunCommand, LiftFeaturesNeedGoodWeights) {
 
 TEST_F(RunCommand, FeatureCacheServesTheSecondRunToTheSameBytes) {
   const fs::path sequence = Render(kKitti, 6);
-  const std::string arguments = "--features lift --set slam.lift.max_features=200 --feature-cache " +
-                                (folder_ / "cache").string();
+  const std::string arguments =
+      "--features lift --set slam.lift.max_features=200 --feature-cache " +
+      (folder_ / "cache").string();
   Run(sequence, arguments);
   EXPECT_THAT(ReadText(output_ / "log.txt"), HasSubstr("feature cache: images found 0, made 6"));
   const std::string first = ReadText(output_ / "trajectory_online.tum");

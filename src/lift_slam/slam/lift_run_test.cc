@@ -45,7 +45,8 @@ TEST_F(LiftRun, IsTheSameWithFeaturesFromACache) {
   FeatureOptions options = Untrained().slam.features;
   const auto cache = std::make_shared<FeatureCache>(folder_ / "cache");
   const auto extract = [&](std::shared_ptr<FeatureCache> from) {
-    return CreateFeatureExtractor(options, std::move(from))->Extract(SyntheticSequence(sequence).Render(3));
+    return CreateFeatureExtractor(options, std::move(from))
+        ->Extract(SyntheticSequence(sequence).Render(3));
   };
   const FeatureSet made = extract(nullptr), kept = extract(cache);
   options.lift.sigma_px = 1.0;  // changes what a position weighs, not the features
