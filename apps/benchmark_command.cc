@@ -123,6 +123,9 @@ void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
   command.add_option("--output", arguments.output, "Folder for plan, runs and tables")->required();
   command.add_option("--systems", request.systems,
                      "Presets (configs/systems) or .yaml files (default: those of the paper)");
+  command.add_option("--variants", request.variants,
+                     "Of the ablation (YAML, default configs/ablation.yaml); --systems chooses "
+                     "among their names");
   command.add_option("--sequences", request.sequences, "Only these of the suite");
   command.add_option("--conditions", request.conditions,
                      "Distortions, 'none' for images as they are (default: the suite's)");
@@ -147,9 +150,10 @@ void AddBenchmarkCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "benchmark", "Systems on the sequences of a suite, several runs each, as tables");
   const auto arguments = std::make_shared<BenchmarkArguments>();
+  arguments->request.variants = LIFT_SLAM_VARIANTS;
   AddOptions(*command, *arguments);
   command->footer(
-      "Suites: kitti, euroc, rendered, shared (whatever is there), robustness, thresholds.\n"
+      "Suites: kitti, euroc, rendered, shared (whatever is there), robustness, thresholds, ablation.\n"
       "Runs that are finished are never repeated; a benchmark that was stopped goes on.\n"
       "Examples:\n"
       "  lift_slam benchmark kitti --data ~/kitti --output bench --jobs 2\n"

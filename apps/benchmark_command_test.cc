@@ -193,6 +193,42 @@ TEST_F(BenchmarkCommand, ThresholdsArePlanned) {
   EXPECT_THAT(plan, HasSubstr("LIFT-SLAM, TH_LOW 1, TH_HIGH 1.5"));
 }
 
+TEST_F(BenchmarkCommand, VariantsAreComparedOnWhateverIsThere) {
+  Render(SequenceLayout::kKittiOdometry, 40);
+  const fs::path variants = folder_ / "variants.yaml";
+  WriteTextAtomically(variants,
+                      "base: default_orb\nvariants:\n- {name: default, title: as it is}\n"
+                      "- {name: few, title: 600 features, set: [slam.orb.max_features=600]}\n");
+  const std::string ablation = fmt::format("benchmark ablation --data {}/data --output {} --runs 2",
+                                           folder_.string(), output_.string());
+  const Outcome outcome = RunProgram(ablation + " --variants " + variants.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("4 done now, 0 were done, 0 failed"));
+  for (const char* title : {"ATE RMSE, median of the runs [m] | 00", "least to largest [m] | 00",
+                            "| Coverage, mean [%] | 00", "| Time of a frame, median"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(title));
+  }
+  EXPECT_THAT(outcome.output, HasSubstr("| 600 features | 100.0 |"));
+  EXPECT_THAT(ReadText(output_ / "tables.csv"), HasSubstr("\"600 features\",\"00\",frame_ms,2,2,"));
+  EXPECT_THAT(ReadText(output_ / "figures/ate_00.svg"), HasSubstr(">600 features<"));
+
+  ExpectOneSentence(RunProgram(ablation + " --systems fewer --variants " + variants.string()),
+                    {"variant 'fewer' is unknown", "'few'"});
+  WriteTextAtomically(variants, "base: default_orb\nvariants:\n- {name: default}\n");
+  ExpectOneSentence(RunProgram(ablation + " --variants " + variants.string()),
+                    {"variants.yaml", "name, title and set"});
+}
+
+TEST_F(BenchmarkCommand, TheShippedAblationChangesOnlySettingsThatExist) {
+  Render(SequenceLayout::kKittiOdometry, 4);
+  const Outcome outcome =
+      RunProgram(fmt::format("benchmark plan ablation --data {}/data --output {} --runs 1",
+                             folder_.string(), output_.string()));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("plan        11 runs"));
+  EXPECT_THAT(ReadText(output_ / "plan.json"), HasSubstr("slam.lift.precision=int8"));
+}
+
 TEST_F(BenchmarkCommand, BadArgumentsAreExplained) {
   fs::create_directories(folder_ / "data");
   ExpectOneSentence(RunProgram(Arguments("kiti")), {"suite 'kiti' is unknown", "robustness"});

@@ -123,7 +123,7 @@ std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
     Choose(kThresholdsEuroc, "euroc", found, chosen);
     Choose(kThresholdsKitti, "kitti", found, chosen);
   }
-  if (suite == "rendered" || suite == "shared") {
+  if (suite == "rendered" || suite == "shared" || suite == "ablation") {
     for (BenchmarkSequence& sequence : found) {
       if (suite == "rendered") sequence.name = RenderedName(sequence.folder);
       chosen.push_back(sequence);
@@ -158,7 +158,7 @@ std::string SequenceIdentity(const fs::path& folder) {
 
 BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& dataset) {
   const fs::path folder = PresetFolder();
-  BenchmarkSystem system{name, name, {}, {}, {}};
+  BenchmarkSystem system{name, name, {}, {}, {}, {}};
   for (const fs::path& path :
        {fs::path(name), folder / (name + "." + dataset + ".yaml"), folder / (name + ".yaml")}) {
     if (system.config.empty() && path.extension() == ".yaml" && fs::is_regular_file(path)) {

@@ -34,6 +34,7 @@ struct BenchmarkSystem {
   std::filesystem::path config;
   std::vector<std::string> skipped_sequences;  // it was trained with them
   std::string making;                          // of its weights; empty: nothing is said
+  std::vector<std::string> settings;           // key=value over the file
 };
 
 // The preset for a dataset: NAME.DATASET.yaml where it exists, else NAME.yaml; or a file. Throws

@@ -167,6 +167,29 @@ void AddConditions(const BenchmarkPlan& plan, const BenchmarkCells& cells,
   pictures.push_back(Picture("ATE by condition", "ate_" + sequence, sequence, "", chart));
 }
 
+// Variants one under another: median of the runs, and a bar from the least to the largest.
+void AddVariants(const BenchmarkPlan& plan, const BenchmarkCells& cells, const std::string& column,
+                 std::vector<BenchmarkPicture>& pictures) {
+  DotChart chart;
+  chart.description = "Error of each variant on " + column;
+  chart.axis.label = "ATE RMSE [m]";
+  chart.categories = plan.titles;
+  chart.width_px = 720;
+  DotSeries series{"median of the runs; bar from the least to the largest", PlotColor::kBlue, {}};
+  for (const std::string& title : plan.titles) {
+    const double mean = ConditionValue(cells, title, column);
+    const auto found = cells.find({title, column});
+    const RunStatistics s =
+        found == cells.end() ? RunStatistics() : found->second.Statistics(kAteFigure);
+    series.values.push_back(std::isfinite(mean) ? s.median : mean);
+    series.low.push_back(std::isfinite(mean) ? s.min : DotSeries::kNone);
+    series.high.push_back(std::isfinite(mean) ? s.max : DotSeries::kNone);
+  }
+  if (std::ranges::all_of(series.values, [](double value) { return std::isnan(value); })) return;
+  chart.series = {std::move(series)};
+  pictures.push_back(Picture("ATE of each variant", "ate_" + column, column, "", chart));
+}
+
 // Columns of frames.csv by name.
 struct ThresholdColumns {
   std::vector<double> frame, low, high;
@@ -238,10 +261,18 @@ void AddThresholds(const std::vector<BenchmarkRun>& runs, const std::string& tit
 std::vector<BenchmarkPicture> MakeBenchmarkPictures(const BenchmarkPlan& plan,
                                                     const std::vector<BenchmarkRun>& runs) {
   std::vector<BenchmarkPicture> pictures;
+  const BenchmarkCells cells = SortIntoCells(plan, runs);
+  if (plan.suite == "ablation") {
+    for (const std::string& sequence : plan.sequences) {
+      for (const std::string& condition : plan.conditions) {
+        AddVariants(plan, cells, ColumnKey(sequence, condition), pictures);
+      }
+    }
+    return pictures;
+  }
   for (const std::string& sequence : plan.sequences) {
     AddTrajectories(plan, runs, sequence, pictures);
   }
-  const BenchmarkCells cells = SortIntoCells(plan, runs);
   for (const std::string& sequence : plan.sequences) {
     if (plan.conditions.size() > 1) AddConditions(plan, cells, sequence, pictures);
   }

@@ -20,7 +20,8 @@ struct BenchmarkPicture {
 
 // In this order: trajectories of each sequence with ground truth, the first run of each system (not
 // the best); mean ATE by condition where there are several; adaptive thresholds of each frame
-// (paper Fig. 5), first run again. What has no data gives no figure.
+// (paper Fig. 5), first run again. Of the ablation: ATE by variant alone. What has no data gives no
+// figure.
 std::vector<BenchmarkPicture> MakeBenchmarkPictures(const BenchmarkPlan& plan,
                                                     const std::vector<BenchmarkRun>& runs);
 

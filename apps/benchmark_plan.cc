@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/benchmark_data.h"
+#include "apps/benchmark_variants.h"
 #include "apps/build_info.h"
 #include "apps/program_options.h"
 #include "lift_slam/image/image_distortion.h"
@@ -86,6 +88,7 @@ class PlanMaker {
     plan_.revision = kGitRevision;
     plan_.frames = request.frames;
     plan_.conditions = Conditions(request);
+    if (request.suite == "ablation") variants_ = ReadBenchmarkVariants(request.variants);
   }
 
   BenchmarkPlan Make() {
@@ -103,7 +106,7 @@ class PlanMaker {
         plan_.missing.push_back(fmt::format("sequence {} is not below {} ({})", sequence.name,
                                             request_.data.string(), WhereFrom(sequence.dataset)));
       }
-      for (const std::string& name : Systems(request_)) AddSystem(name, sequence);
+      for (const std::string& name : SystemNames()) AddSystem(name, sequence);
     }
     // Round after round, so that a benchmark cut short has something of everything.
     std::ranges::stable_sort(plan_.jobs, {}, &BenchmarkJob::seed);
@@ -111,8 +114,33 @@ class PlanMaker {
   }
 
  private:
+  std::vector<std::string> SystemNames() const {
+    if (!variants_ || !request_.systems.empty()) return Systems(request_);
+    std::vector<std::string> names;
+    for (const BenchmarkVariant& variant : variants_->variants) names.push_back(variant.name);
+    return names;
+  }
+
+  // A preset, or a variant of the ablation.
+  BenchmarkSystem FindSystem(const std::string& name, const std::string& dataset) const {
+    if (!variants_) return FindBenchmarkSystem(name, dataset);
+    const BenchmarkVariant& variant = FindVariant(*variants_, name);
+    BenchmarkSystem system = FindBenchmarkSystem(variants_->base, dataset);
+    system.name = variant.name;
+    system.title = variant.title;
+    system.settings = variant.settings;
+    return system;
+  }
+
+  // What the variant says counts more than what is asked for all.
+  std::vector<std::string> Settings(const BenchmarkSystem& system) const {
+    std::vector<std::string> settings = request_.overrides;
+    settings.insert(settings.end(), system.settings.begin(), system.settings.end());
+    return settings;
+  }
+
   void AddSystem(const std::string& name, const BenchmarkSequence& sequence) {
-    const BenchmarkSystem system = FindBenchmarkSystem(name, sequence.dataset);
+    const BenchmarkSystem system = FindSystem(name, sequence.dataset);
     if (!Contains(plan_.titles, system.title)) plan_.titles.push_back(system.title);
     if (sequence.folder.empty()) return;
     if (Contains(system.skipped_sequences, sequence.name)) {
@@ -120,7 +148,7 @@ class PlanMaker {
       return;
     }
     ProgramOptions options;
-    ConfigureOptions(system.config, request_.overrides, MakeOptionRoot(options));
+    ConfigureOptions(system.config, Settings(system), MakeOptionRoot(options));
     const fs::path named = options.slam.features.lift_weights;
     const fs::path weights = FindWeights(named, system.config);
     if (!named.empty() && weights.empty()) {
@@ -146,7 +174,7 @@ class PlanMaker {
                          sequence.folder,
                          system.config,
                          weights,
-                         request_.overrides,
+                         Settings(system),
                          request_.frames,
                          ""};
         const std::string identity =
@@ -173,6 +201,7 @@ class PlanMaker {
   }
 
   const BenchmarkRequest& request_;
+  std::optional<BenchmarkVariants> variants_;  // of the ablation
   BenchmarkPlan plan_;
   const std::string program_ = ProgramIdentity();
   std::map<fs::path, std::string> weight_hashes_, sequence_identities_;

@@ -15,6 +15,7 @@ struct BenchmarkRequest {
   std::vector<std::string> conditions;  // distortions; "none": as they are; empty: the suite's
   std::vector<std::string> overrides;   // key=value for every system
   std::string frames;                   // part of every sequence: FIRST:LAST:STEP
+  std::filesystem::path variants;       // of the ablation: a file as configs/ablation.yaml
   int runs = 5;
 };
 
@@ -45,8 +46,9 @@ struct BenchmarkPlan {
   std::vector<std::string> missing;  // sentences: sequences and weights that are not there
 };
 
-inline constexpr const char* kBenchmarkSuites[] = {"kitti",  "euroc",      "rendered",
-                                                   "shared", "robustness", "thresholds"};
+inline constexpr const char* kBenchmarkSuites[] = {"kitti",      "euroc",      "rendered",
+                                                   "shared",     "robustness", "thresholds",
+                                                   "ablation"};
 
 // Throws InputError for an unknown suite, system or distortion, and when nothing can be run.
 BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request);

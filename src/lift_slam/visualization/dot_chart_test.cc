@@ -45,6 +45,15 @@ TEST(DotChart, DrawsADotANumberAndACrossAFailure) {
   EXPECT_EQ(Count(svg, "stroke-width=\"2\""), 1U);
 }
 
+TEST(DotChart, DrawsABarWhereThereAreEndsAndMakesRoomForIt) {
+  DotChart chart = TwoSystems();
+  chart.series[1].low = {0.25, DotSeries::kNone, 0.5};
+  chart.series[1].high = {40.0, DotSeries::kNone, 0.5};
+  const std::string svg = RenderSvg(chart);
+  EXPECT_EQ(Count(svg, "stroke-width=\"2\""), 1U + 2U);
+  EXPECT_THAT(svg, HasSubstr(">40<"));
+}
+
 TEST(DotChart, LeavesNoRoomForFailuresWithoutOne) {
   DotChart chart = TwoSystems();
   chart.series[0].values[1] = 3.0;
