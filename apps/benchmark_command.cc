@@ -14,6 +14,7 @@
 #include "apps/benchmark_results.h"
 #include "apps/benchmark_tables.h"
 #include "apps/exit_code.h"
+#include "apps/pdf_figure.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/number_text.h"
@@ -45,6 +46,20 @@ void AddExternal(const BenchmarkArguments& arguments, BenchmarkPlan& plan,
   }
 }
 
+// Beside the SVG files, as far as it can be done; one sentence when not.
+void WritePdfs(const std::vector<BenchmarkPicture>& pictures, const fs::path& folder) {
+  for (const BenchmarkPicture& picture : pictures) {
+    const fs::path file = (folder / picture.file_name).replace_extension(".pdf");
+    const PdfOutcome outcome = WritePdf(picture.svg_file, file);
+    if (outcome == PdfOutcome::kWritten) continue;
+    std::cout << "warning     figures as SVG alone: rsvg-convert "
+              << (outcome == PdfOutcome::kNoConverter
+                      ? "is not there (Debian's package librsvg2-bin)\n"
+                      : fmt::format("failed on {}\n", picture.file_name));
+    return;
+  }
+}
+
 void WritePictures(const std::vector<BenchmarkPicture>& pictures, const fs::path& folder) {
   std::error_code ignored;
   fs::remove_all(folder, ignored);  // of an earlier plan
@@ -53,6 +68,7 @@ void WritePictures(const std::vector<BenchmarkPicture>& pictures, const fs::path
   for (const BenchmarkPicture& picture : pictures) {
     WriteTextAtomically(folder / picture.file_name, picture.svg_file);
   }
+  WritePdfs(pictures, folder);
 }
 
 void Merge(const BenchmarkArguments& arguments) {

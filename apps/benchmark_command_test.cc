@@ -48,13 +48,19 @@ TEST_F(BenchmarkCommand, RunsKittiAndListsWhatIsMissing) {
   EXPECT_THAT(ReadText(output_ / "tables.tex"), HasSubstr("Algorithm & Metric & 00* & 01"));
   const std::string page = ReadText(output_ / "tables.html");
   EXPECT_TRUE(fs::is_regular_file(output_ / "figures/trajectory_00.svg"));
+  if (fs::is_regular_file("/usr/bin/rsvg-convert")) {
+    EXPECT_THAT(ReadText(output_ / "figures/trajectory_00.pdf"), testing::StartsWith("%PDF"));
+  }
   EXPECT_THAT(page, HasSubstr("ground truth"));
   EXPECT_EQ(XmlProblem(page, /*html=*/true), "");
   for (const char* name : {"tables.csv", "tables.tex", "tables.html"}) {
     EXPECT_TRUE(fs::is_regular_file(output_ / name)) << name;
   }
-  const Outcome again = RunProgram(Arguments("kitti") + " --runs 1");
+  const Outcome again = RunProgram(Arguments("kitti") + " --runs 1", "PATH=/none ");
   EXPECT_THAT(again.output, HasSubstr("0 done now, 2 were done, 0 failed"));
+  EXPECT_THAT(again.output, HasSubstr("figures as SVG alone: rsvg-convert is not there"));
+  EXPECT_FALSE(fs::exists(output_ / "figures/trajectory_00.pdf"));
+  EXPECT_TRUE(fs::is_regular_file(output_ / "figures/trajectory_00.svg"));
 }
 
 TEST_F(BenchmarkCommand, RunsEurocJobByJob) {

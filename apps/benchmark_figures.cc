@@ -172,10 +172,10 @@ void AddVariants(const BenchmarkPlan& plan, const BenchmarkCells& cells, const s
                  std::vector<BenchmarkPicture>& pictures) {
   DotChart chart;
   chart.description = "Error of each variant on " + column;
-  chart.axis.label = "ATE RMSE [m]";
+  chart.axis.label = "ATE RMSE, median of the runs; bar: least to largest [m]";
   chart.categories = plan.titles;
   chart.width_px = 720;
-  DotSeries series{"median of the runs; bar from the least to the largest", PlotColor::kBlue, {}};
+  DotSeries series{"median", PlotColor::kBlue, {}};
   for (const std::string& title : plan.titles) {
     const double mean = ConditionValue(cells, title, column);
     const auto found = cells.find({title, column});

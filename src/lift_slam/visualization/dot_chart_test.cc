@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lift_slam/visualization/plain_svg.h"
 #include "lift_slam/visualization/xml_check_for_test.h"
 
 namespace lift_slam {
@@ -52,6 +53,14 @@ TEST(DotChart, DrawsABarWhereThereAreEndsAndMakesRoomForIt) {
   const std::string svg = RenderSvg(chart);
   EXPECT_EQ(Count(svg, "stroke-width=\"2\""), 1U + 2U);
   EXPECT_THAT(svg, HasSubstr(">40<"));
+}
+
+TEST(DotChart, PlainFileHasTheColoursOfLightPagesInsteadOfVariables) {
+  const std::string svg = PlainSvg(RenderSvgFile(TwoSystems()));
+  EXPECT_THAT(svg, Not(HasSubstr("var(")));
+  EXPECT_THAT(svg, HasSubstr(".p-s1{stroke:#0072b2}"));
+  EXPECT_EQ(XmlProblem(svg), "");
+  EXPECT_EQ(PlainSvg("<svg/>"), "<svg/>");
 }
 
 TEST(DotChart, LeavesNoRoomForFailuresWithoutOne) {
