@@ -235,11 +235,87 @@ TEST_F(BenchmarkCommand, TheShippedAblationChangesOnlySettingsThatExist) {
   EXPECT_THAT(ReadText(output_ / "plan.json"), HasSubstr("slam.lift.precision=int8"));
 }
 
+TEST_F(BenchmarkCommand, MatchingIsCountedOverPairsAndGoesOn) {
+  Render(SequenceLayout::kKittiOdometry, 14);
+  const std::string matching = Arguments("matching", "orb sift") + " --pairs 3";
+  const Outcome planned = RunProgram("benchmark plan " + matching.substr(10));
+  EXPECT_THAT(planned.output, HasSubstr("plan        2 runs"));
+  ASSERT_EQ(RunProgram("benchmark run-job 1 --output " + output_.string()).exit_code, 0);
+  const Outcome outcome = RunProgram(matching);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("1 done now, 1 were done, 0 failed"));
+  EXPECT_THAT(outcome.output, HasSubstr("| 00: inliers, mean of the pairs | t+1 | t+2 |"));
+  const std::string csv = ReadText(output_ / "tables.csv");
+  EXPECT_THAT(csv, HasSubstr("matching,\"ORB\",\"00\",t+10,3,"));
+  EXPECT_THAT(csv, HasSubstr("matching,\"SIFT\",\"00\",gamma=0.25,3,"));
+  for (const char* name : {"skip_00.svg", "gamma_00.svg"}) {
+    EXPECT_EQ(XmlProblem(ReadText(output_ / "figures" / name)), "") << name;
+  }
+  ExpectOneSentence(RunProgram(matching + " --set slam.seed=1"), {"--set"});
+}
+
+TEST_F(BenchmarkCommand, ResultsBecomeADocumentThatTheSameResultsGiveAgain) {
+  Render(SequenceLayout::kKittiOdometry, 40);
+  ASSERT_EQ(RunProgram(Arguments("kitti", "default_orb") + " --runs 1").exit_code, 0);
+  const fs::path matching = folder_ / "matching", document = folder_ / "docs/results.md";
+  ASSERT_EQ(RunProgram(fmt::format("benchmark matching --data {}/data --systems orb --pairs 2 "
+                                   "--output {}",
+                                   folder_.string(), matching.string()))
+                .exit_code,
+            0);
+  fs::create_directories(folder_ / "docs/results");
+  WriteTextAtomically(folder_ / "docs/results/old.svg", "<svg/>");
+  const std::string results = fmt::format("benchmark results --from {} {} --output {}",
+                                          output_.string(), matching.string(), document.string());
+  const Outcome outcome = RunProgram(results);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string text = ReadText(document);
+  for (const char* part :
+       {"## kitti\n", "## matching\n", "| finished | 1 of 1 jobs |", "| SHA-256, sequence 00 | `",
+        "| SHA-256, settings of ours, ORB features, seed 0 | `", "| processor | ",
+        "![00](results/kitti_trajectory_00.svg)", "![00](results/matching_skip_00.svg)"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "docs/results/old.svg"));
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "docs/results/kitti_trajectory_00.svg"));
+  ASSERT_EQ(RunProgram(results).exit_code, 0);
+  EXPECT_EQ(ReadText(document), text);
+
+  ExpectOneSentence(RunProgram("benchmark results --output " + document.string()), {"--from"});
+  ExpectOneSentence(
+      RunProgram(fmt::format("benchmark results --from {0} --output {0}", output_.string())),
+      {"must end in .md"});
+  fs::remove_all(output_ / "results");
+  ExpectOneSentence(RunProgram(results), {"has no finished run"});
+}
+
+TEST_F(BenchmarkCommand, PairsNeedElevenFrames) {
+  const fs::path sequence = Render(SequenceLayout::kKittiOdometry, 10);
+  ExpectOneSentence(RunProgram(fmt::format("match-sequence {} --features orb --output {}",
+                                           sequence.string(), output_.string())),
+                    {"has 10 frames", "need 11"});
+}
+
+TEST_F(BenchmarkCommand, SequencesOfOneNameAreToldApart) {
+  const fs::path first = Render(SequenceLayout::kKittiOdometry, 4);
+  for (const char* track : {"oval", "hills"}) {
+    fs::create_directories(folder_ / "tracks" / track / "sequences");
+    fs::copy(first, folder_ / "tracks" / track / "sequences/00", fs::copy_options::recursive);
+  }
+  const Outcome outcome = RunProgram(
+      fmt::format("benchmark plan shared --data {}/tracks --output {} --runs 1 --systems orb_slam",
+                  folder_.string(), output_.string()));
+  EXPECT_THAT(outcome.output, HasSubstr("plan        2 runs"));
+  const std::string plan = ReadText(output_ / "plan.json");
+  EXPECT_THAT(plan, HasSubstr("\"sequence\": \"oval\""));
+  EXPECT_THAT(plan, HasSubstr("\"sequence\": \"hills\""));
+}
+
 TEST_F(BenchmarkCommand, BadArgumentsAreExplained) {
   fs::create_directories(folder_ / "data");
   ExpectOneSentence(RunProgram(Arguments("kiti")), {"suite 'kiti' is unknown", "robustness"});
   ExpectOneSentence(RunProgram(Arguments("kitti")), {"nothing to run", "sequence 00"});
-  ExpectOneSentence(RunProgram(Arguments("matching")), {"benchmark-features"});
+  ExpectOneSentence(RunProgram(Arguments("matching")), {"'default_orb'", "orb, sift and lift"});
   ExpectOneSentence(RunProgram(Arguments("rendered")), {"lift_slam render makes some"});
   ExpectOneSentence(RunProgram("benchmark kitti --output " + output_.string()), {"--data"});
 }

@@ -27,6 +27,9 @@ int PublishedFrames(const std::string& sequence);
 // wherever the folder lies, so that results outlive a move of the data.
 std::string SequenceIdentity(const std::filesystem::path& folder);
 
+// The program's revision; of a build that differs from it, or of none, the program itself too.
+std::string ProgramIdentity();
+
 // A system: a file of options, and remarks in its first lines ("# title: ...", "# skip: 00 06",
 // "# make: ...": how its weights are made).
 struct BenchmarkSystem {

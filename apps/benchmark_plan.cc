@@ -9,9 +9,11 @@
 #include <optional>
 
 #include "apps/benchmark_data.h"
+#include "apps/benchmark_matching_plan.h"
 #include "apps/benchmark_variants.h"
 #include "apps/build_info.h"
 #include "apps/program_options.h"
+#include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/image/image_distortion.h"
 #include "lift_slam/util/config_file.h"
 #include "lift_slam/util/file.h"
@@ -74,13 +76,6 @@ std::string WhereFrom(const std::string& dataset) {
                             : "EuRoC MAV, ASL dataset format";
 }
 
-// The revision; of a build that differs from it, or of none, the program itself too.
-std::string ProgramIdentity() {
-  const std::string revision = kGitRevision;
-  if (!revision.ends_with("-dirty") && revision != "unknown") return revision;
-  return revision + " " + Sha256Hex(ReadText("/proc/self/exe"));
-}
-
 class PlanMaker {
  public:
   explicit PlanMaker(const BenchmarkRequest& request) : request_(request) {
@@ -92,15 +87,7 @@ class PlanMaker {
   }
 
   BenchmarkPlan Make() {
-    const auto sequences = FindBenchmarkSequences(request_.suite, request_.data);
-    for (const std::string& wanted : request_.sequences) {
-      if (std::ranges::none_of(sequences, [&](const auto& s) { return s.name == wanted; })) {
-        throw InputError(
-            fmt::format("--sequences: '{}' is not in the suite '{}'", wanted, request_.suite));
-      }
-    }
-    for (const BenchmarkSequence& sequence : sequences) {
-      if (!request_.sequences.empty() && !Contains(request_.sequences, sequence.name)) continue;
+    for (const BenchmarkSequence& sequence : ChosenSequences(request_)) {
       plan_.sequences.push_back(sequence.name);
       if (sequence.folder.empty()) {
         plan_.missing.push_back(fmt::format("sequence {} is not below {} ({})", sequence.name,
@@ -164,6 +151,9 @@ class PlanMaker {
 
   void AddJobs(const BenchmarkSystem& system, const BenchmarkSequence& sequence,
                ProgramOptions& options, const fs::path& weights) {
+    const bool is_lift = options.slam.features.type == FeatureType::kLift;
+    const std::string lift_hash = is_lift ? WeightsHash(weights) : "";
+    plan_.hashes["sequence " + sequence.name] = IdentityOf(sequence.folder);
     for (const std::string& condition : plan_.conditions) {
       for (int seed = 0; seed < request_.runs; ++seed) {
         BenchmarkJob job{system.name,
@@ -176,12 +166,12 @@ class PlanMaker {
                          weights,
                          Settings(system),
                          request_.frames,
+                         0,
                          ""};
-        const std::string identity =
-            fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}",
-                        OptionsToYaml(MakeOptionRoot(options)), WeightsHash(weights), program_,
-                        job.sequence, IdentityOf(job.source), job.distortion, job.frames, seed,
-                        job.system);  // two systems alike still have a folder each
+        const std::string identity = fmt::format(
+            "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", OptionsToYaml(MakeOptionRoot(options)), lift_hash,
+            program_, job.sequence, IdentityOf(job.source), job.distortion, job.frames, seed,
+            job.system);  // two systems alike still have a folder each
         job.hash = Sha256Hex(identity).substr(0, 16);
         plan_.jobs.push_back(job);
       }
@@ -196,7 +186,10 @@ class PlanMaker {
 
   const std::string& WeightsHash(const fs::path& weights) {
     std::string& hash = weight_hashes_[weights];
-    if (hash.empty()) hash = weights.empty() ? "shipped" : Sha256Hex(ReadText(weights));
+    if (!hash.empty()) return hash;
+    const fs::path file = weights.empty() ? DefaultLiftWeights() : weights;
+    hash = Sha256Hex(ReadText(file));
+    plan_.hashes["weights " + file.filename().string()] = hash;
     return hash;
   }
 
@@ -218,6 +211,7 @@ Json ToJson(const BenchmarkJob& job) {
           {"weights", job.weights.string()},
           {"overrides", job.overrides},
           {"frames", job.frames},
+          {"pairs", job.pairs},
           {"hash", job.hash}};
 }
 
@@ -233,20 +227,33 @@ BenchmarkJob JobFromJson(const Json& json) {
   job.weights = json.at("weights").get<std::string>();
   job.overrides = json.at("overrides").get<std::vector<std::string>>();
   job.frames = json.at("frames").get<std::string>();
+  job.pairs = json.value("pairs", 0);
   job.hash = json.at("hash").get<std::string>();
   return job;
 }
 
 }  // namespace
 
-BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
-  if (request.suite == "matching") {
-    throw InputError("'lift_slam benchmark-features' measures matching, over pairs of images");
+std::vector<BenchmarkSequence> ChosenSequences(const BenchmarkRequest& request) {
+  auto sequences = FindBenchmarkSequences(request.suite, request.data);
+  for (const std::string& wanted : request.sequences) {
+    if (std::ranges::none_of(sequences, [&](const auto& s) { return s.name == wanted; })) {
+      throw InputError(
+          fmt::format("--sequences: '{}' is not in the suite '{}'", wanted, request.suite));
+    }
   }
+  std::erase_if(sequences, [&](const BenchmarkSequence& sequence) {
+    return !request.sequences.empty() && !Contains(request.sequences, sequence.name);
+  });
+  return sequences;
+}
+
+BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
   if (std::ranges::find(kBenchmarkSuites, request.suite) == std::end(kBenchmarkSuites)) {
     throw InputError(fmt::format("suite '{}' is unknown; expected one of {}", request.suite,
                                  fmt::join(kBenchmarkSuites, ", ")));
   }
+  if (request.suite == "matching") return MakeMatchingPlan(request);
   if (request.runs < 1) throw InputError("--runs must be at least 1");
   BenchmarkPlan plan = PlanMaker(request).Make();
   if (!plan.jobs.empty()) return plan;
@@ -259,10 +266,11 @@ BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
 }
 
 void WriteBenchmarkPlan(const BenchmarkPlan& plan, const fs::path& folder) {
-  Json json = {
-      {"suite", plan.suite},     {"revision", plan.revision},   {"frames", plan.frames},
-      {"titles", plan.titles},   {"sequences", plan.sequences}, {"conditions", plan.conditions},
-      {"skipped", plan.skipped}, {"missing", plan.missing},     {"jobs", Json::array()}};
+  Json json = {{"suite", plan.suite},         {"revision", plan.revision},
+               {"frames", plan.frames},       {"titles", plan.titles},
+               {"sequences", plan.sequences}, {"conditions", plan.conditions},
+               {"skipped", plan.skipped},     {"missing", plan.missing},
+               {"hashes", plan.hashes},       {"jobs", Json::array()}};
   for (const BenchmarkJob& job : plan.jobs) json["jobs"].push_back(ToJson(job));
   WriteTextAtomically(folder / "plan.json", json.dump(1) + "\n");
 }
@@ -281,6 +289,7 @@ BenchmarkPlan ReadBenchmarkPlan(const fs::path& folder) {
     plan.conditions = json.at("conditions").get<std::vector<std::string>>();
     plan.skipped = json.at("skipped").get<std::vector<std::string>>();
     plan.missing = json.at("missing").get<std::vector<std::string>>();
+    plan.hashes = json.value("hashes", plan.hashes);
     for (const Json& job : json.at("jobs")) plan.jobs.push_back(JobFromJson(job));
     return plan;
   } catch (const Json::exception&) {

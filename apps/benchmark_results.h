@@ -29,7 +29,8 @@ inline constexpr std::array<BenchmarkFigure, 4> kBenchmarkFigures = {
      // Extraction and tracking, mean over the frames.
      {"frame_ms", "Time of a frame [ms]", "/timing/frame_ms/mean_ms", 1.0, 1}}};
 inline constexpr std::size_t kAteFigure = 0, kFrameTimeFigure = 3;
-inline constexpr std::size_t kNumErrorFigures = 3;  // the first ones; tables of the paper have these
+inline constexpr std::size_t kNumErrorFigures =
+    3;  // the first ones; tables of the paper have these
 
 // One run that has ended, of ours or of another system.
 struct BenchmarkRun {

@@ -170,9 +170,8 @@ std::vector<std::string> Remarks(const BenchmarkPlan& plan, const std::vector<Be
         "time had the machine for itself.");
   }
   for (const std::string& title : plan.titles) {
-    const auto run = std::ranges::find_if(runs, [&](const BenchmarkRun& r) {
-      return r.title == title && !r.notice.empty();
-    });
+    const auto run = std::ranges::find_if(
+        runs, [&](const BenchmarkRun& r) { return r.title == title && !r.notice.empty(); });
     if (run != runs.end()) remarks.push_back(title + ": " + run->notice + ".");
   }
   for (const std::string& sentence : plan.missing) remarks.push_back("Missing: " + sentence + ".");

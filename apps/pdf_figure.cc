@@ -46,9 +46,9 @@ int RunQuietly(std::vector<std::string> words, const std::string& variable) {
 PdfOutcome WritePdf(const std::string& svg, const fs::path& file) {
   const fs::path source = file.string() + ".part.svg", target = file.string() + ".part";
   WriteTextAtomically(source, PlainSvg(svg));
-  const int code = RunQuietly(
-      {"rsvg-convert", "--format=pdf", "--output", target.string(), source.string()},
-      "SOURCE_DATE_EPOCH=0");  // no date in the file
+  const int code =
+      RunQuietly({"rsvg-convert", "--format=pdf", "--output", target.string(), source.string()},
+                 "SOURCE_DATE_EPOCH=0");  // no date in the file
   std::error_code error;
   fs::remove(source, error);
   if (code == -1) return PdfOutcome::kNoConverter;
