@@ -5,10 +5,13 @@
 #include <csignal>
 #include <map>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "apps/run_test_fixture.h"
+#include "lift_slam/testing/real_data.h"
 #include "lift_slam/util/file.h"
+#include "lift_slam/util/number_text.h"
 #include "lift_slam/visualization/xml_check_for_test.h"
 
 namespace lift_slam {
@@ -218,6 +221,13 @@ TEST_F(BenchmarkCommand, VariantsAreComparedOnWhateverIsThere) {
   EXPECT_THAT(ReadText(output_ / "tables.csv"), HasSubstr("\"600 features\",\"00\",frame_ms,2,2,"));
   EXPECT_THAT(ReadText(output_ / "figures/ate_00.svg"), HasSubstr(">600 features<"));
 
+  for (const std::string& name : Finished()) {
+    WriteTextAtomically(output_ / "results" / name / "log.txt",
+                        "0 warning: LIFT's descriptors in bfloat16: int8 needs ranges\n");
+  }
+  EXPECT_THAT(RunProgram("benchmark merge --output " + output_.string()).output,
+              HasSubstr("\n600 features: LIFT's descriptors in bfloat16: int8 needs ranges.\n"));
+
   ExpectOneSentence(RunProgram(ablation + " --systems fewer --variants " + variants.string()),
                     {"variant 'fewer' is unknown", "'few'"});
   WriteTextAtomically(variants, "base: default_orb\nvariants:\n- {name: default}\n");
@@ -287,6 +297,34 @@ TEST_F(BenchmarkCommand, ResultsBecomeADocumentThatTheSameResultsGiveAgain) {
       {"must end in .md"});
   fs::remove_all(output_ / "results");
   ExpectOneSentence(RunProgram(results), {"has no finished run"});
+}
+
+// Inliers of the mean under a condition, of features on the only sequence of a table.
+double InliersIn(const std::string& csv, const std::string& features,
+                 const std::string& condition) {
+  const std::size_t row = csv.find("matching,\"" + features + "\",\"06\"," + condition + ",");
+  if (row == std::string::npos) return -1.0;
+  std::istringstream rest(csv.substr(row));
+  std::string field;
+  for (int i = 0; i < 8; ++i) std::getline(rest, field, ',');
+  return ParseDouble(field).value_or(-1.0);
+}
+
+TEST_F(BenchmarkCommand, LiftMatchesDarkRealImagesBetterThanOrb) {
+  if (RealDataFolder().empty()) GTEST_SKIP() << "no real data: set LIFT_SLAM_DATA";
+  const fs::path kitti = RealDataFolder() / "kitti";
+  if (!fs::is_directory(kitti / "sequences/06")) GTEST_SKIP() << "no KITTI 06 in " << kitti;
+  const Outcome outcome = RunProgram(
+      fmt::format("benchmark matching --data {} --sequences 06 --systems orb lift --pairs 2 "
+                  "--output {}",
+                  kitti.string(), output_.string()));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string csv = ReadText(output_ / "tables.csv");
+  for (const char* condition : {"t+5", "gamma=0.25", "gamma=4"}) {
+    EXPECT_GT(InliersIn(csv, "LIFT", condition), 1.3 * InliersIn(csv, "ORB", condition))
+        << condition;
+    EXPECT_GT(InliersIn(csv, "ORB", condition), 8.0) << condition;
+  }
 }
 
 TEST_F(BenchmarkCommand, PairsNeedElevenFrames) {

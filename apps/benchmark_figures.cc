@@ -155,7 +155,7 @@ void AddVariants(const BenchmarkPlan& plan, const BenchmarkCells& cells, const s
                  std::vector<BenchmarkPicture>& pictures) {
   DotChart chart;
   chart.description = "Error of each variant on " + column;
-  chart.axis.label = "ATE RMSE, median of the runs; bar: least to largest [m]";
+  chart.axis.label = "ATE RMSE [m]";
   chart.categories = plan.titles;
   chart.width_px = 720;
   DotSeries series{"median", PlotColor::kBlue, {}};
@@ -170,7 +170,8 @@ void AddVariants(const BenchmarkPlan& plan, const BenchmarkCells& cells, const s
   }
   if (std::ranges::all_of(series.values, [](double value) { return std::isnan(value); })) return;
   chart.series = {std::move(series)};
-  pictures.push_back(MakePicture("ATE of each variant", "ate_" + column, column, "", chart));
+  pictures.push_back(MakePicture("ATE of each variant", "ate_" + column, column,
+                                 "Median of the runs; bar: least to largest.", chart));
 }
 
 // Columns of frames.csv by name.

@@ -80,7 +80,7 @@ void AddGammaSeries(const std::string& title, const std::vector<const MatchingCe
 Plot EmptySkipPlot(const std::string& sequence) {
   Plot plot;
   plot.description = "Inliers against frame skip on " + sequence;
-  plot.x = {"frames between the images", /*integers=*/true, 0.5, 10.5};
+  plot.x = {"frames apart", /*integers=*/true, 0.5, 10.5};
   plot.y = {"inliers", false, 0.0, {}};
   return plot;
 }

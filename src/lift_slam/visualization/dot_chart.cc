@@ -13,7 +13,7 @@ namespace lift_slam {
 namespace {
 
 constexpr double kMarginPx = 10.0, kDotRadiusPx = 4.0, kCrossPx = 3.5;
-constexpr double kFailedColumnPx = 60.0;  // right of the frame
+constexpr double kFailedColumnPx = 76.0;  // right of the frame
 constexpr double kLegendRowPx = 20.0, kAxisPx = 46.0, kTickSpacingPx = 72.0;
 constexpr double kRowPx = 16.0, kLanePx = 9.0;  // of a category, and more for each system
 
