@@ -13,6 +13,7 @@ namespace lift_slam {
 namespace {
 
 constexpr double kMarginPx = 10.0, kDotRadiusPx = 4.0, kCrossPx = 3.5;
+constexpr double kWidestFont = 1.1;       // DejaVu Sans, over the estimated width
 constexpr double kFailedColumnPx = 76.0;  // right of the frame
 constexpr double kLegendRowPx = 20.0, kAxisPx = 46.0, kTickSpacingPx = 72.0;
 constexpr double kRowPx = 16.0, kLanePx = 9.0;  // of a category, and more for each system
@@ -59,7 +60,7 @@ int LegendRows(const DotChart& chart, double left) {
 Layout LayOutChart(const DotChart& chart) {
   Layout l;
   for (const std::string& category : chart.categories) {
-    l.left = std::max(l.left, TextWidth(category) + 2.0 * kMarginPx);
+    l.left = std::max(l.left, kWidestFont * TextWidth(category) + 2.0 * kMarginPx);
   }
   l.top = 6.0 + kLegendRowPx * LegendRows(chart, l.left);
   l.width = chart.width_px - l.left - (HasFailure(chart) ? kFailedColumnPx : 2.0 * kMarginPx);
