@@ -7,13 +7,14 @@
 #include <iostream>
 #include <memory>
 
+#include "apps/benchmark_document.h"
 #include "apps/benchmark_external.h"
-#include "apps/benchmark_figures.h"
 #include "apps/benchmark_jobs.h"
+#include "apps/benchmark_outcome.h"
 #include "apps/benchmark_plan.h"
 #include "apps/benchmark_results.h"
-#include "apps/benchmark_tables.h"
 #include "apps/exit_code.h"
+#include "apps/pdf_figure.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/number_text.h"
@@ -24,10 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct BenchmarkArguments {
-  std::vector<std::string> words;  // SUITE, "plan SUITE", "run-job K" or "merge"
+  std::vector<std::string> words;  // SUITE, "plan SUITE", "run-job K", "merge" or "results"
   BenchmarkRequest request;
   fs::path output, publications = LIFT_SLAM_PUBLICATIONS;
   std::vector<std::string> external;  // NAME=FOLDER
+  std::vector<fs::path> from;         // folders of benchmarks, for "results"
   int jobs = 1;
 };
 
@@ -45,6 +47,20 @@ void AddExternal(const BenchmarkArguments& arguments, BenchmarkPlan& plan,
   }
 }
 
+// Beside the SVG files, as far as it can be done; one sentence when not.
+void WritePdfs(const std::vector<BenchmarkPicture>& pictures, const fs::path& folder) {
+  for (const BenchmarkPicture& picture : pictures) {
+    const fs::path file = (folder / picture.file_name).replace_extension(".pdf");
+    const PdfOutcome outcome = WritePdf(picture.svg_file, file);
+    if (outcome == PdfOutcome::kWritten) continue;
+    std::cout << "warning     figures as SVG alone: rsvg-convert "
+              << (outcome == PdfOutcome::kNoConverter
+                      ? "is not there (Debian's package librsvg2-bin)\n"
+                      : fmt::format("failed on {}\n", picture.file_name));
+    return;
+  }
+}
+
 void WritePictures(const std::vector<BenchmarkPicture>& pictures, const fs::path& folder) {
   std::error_code ignored;
   fs::remove_all(folder, ignored);  // of an earlier plan
@@ -53,21 +69,31 @@ void WritePictures(const std::vector<BenchmarkPicture>& pictures, const fs::path
   for (const BenchmarkPicture& picture : pictures) {
     WriteTextAtomically(folder / picture.file_name, picture.svg_file);
   }
+  WritePdfs(pictures, folder);
+}
+
+void WriteTables(const BenchmarkTables& tables, const fs::path& folder) {
+  WriteTextAtomically(folder / "tables.md", tables.markdown);
+  WriteTextAtomically(folder / "tables.csv", tables.csv);
+  WriteTextAtomically(folder / "tables.tex", tables.latex);
+  WriteTextAtomically(folder / "tables.html", tables.html);
+  std::cout << tables.markdown
+            << fmt::format("tables      {}\n", (folder / "tables.html").string());
 }
 
 void Merge(const BenchmarkArguments& arguments) {
   BenchmarkPlan plan = ReadBenchmarkPlan(arguments.output);
-  std::vector<BenchmarkRun> runs = ReadBenchmarkRuns(plan, arguments.output);
-  AddExternal(arguments, plan, runs);
-  const std::vector<BenchmarkPicture> pictures = MakeBenchmarkPictures(plan, runs);
-  WritePictures(pictures, arguments.output / "figures");
-  const BenchmarkTables tables = MakeBenchmarkTables(plan, runs, arguments.publications, pictures);
-  WriteTextAtomically(arguments.output / "tables.md", tables.markdown);
-  WriteTextAtomically(arguments.output / "tables.csv", tables.csv);
-  WriteTextAtomically(arguments.output / "tables.tex", tables.latex);
-  WriteTextAtomically(arguments.output / "tables.html", tables.html);
-  std::cout << tables.markdown
-            << fmt::format("tables      {}\n", (arguments.output / "tables.html").string());
+  if (plan.suite == "matching" && !arguments.external.empty()) {
+    throw InputError("--external gives trajectories, and matching has none");
+  }
+  const BenchmarkOutcome outcome = [&] {
+    if (plan.suite == "matching") return MatchingOutcome(plan, arguments.output);
+    std::vector<BenchmarkRun> runs = ReadBenchmarkRuns(plan, arguments.output);
+    AddExternal(arguments, plan, runs);
+    return RunsOutcome(plan, runs, arguments.publications);
+  }();
+  WritePictures(outcome.pictures, arguments.output / "figures");
+  WriteTables(outcome.tables, arguments.output);
 }
 
 BenchmarkPlan Plan(const BenchmarkArguments& arguments) {
@@ -102,10 +128,20 @@ void RunOne(const BenchmarkArguments& arguments) {
   Run({plan.jobs[static_cast<std::size_t>(*number - 1)]}, arguments);
 }
 
+void WriteResults(const BenchmarkArguments& arguments) {
+  if (arguments.from.empty()) throw InputError("benchmark results needs --from FOLDER...");
+  if (arguments.output.extension() != ".md") {
+    throw InputError("benchmark results writes a document: --output must end in .md");
+  }
+  WriteBenchmarkDocument(arguments.from, arguments.publications, arguments.output);
+  std::cout << fmt::format("results     {}\n", arguments.output.string());
+}
+
 void Benchmark(BenchmarkArguments arguments) {
   if (arguments.jobs < 1) throw InputError("--jobs must be at least 1");
   const std::string& verb = arguments.words.front();
   if (verb == "merge") return Merge(arguments);
+  if (verb == "results") return WriteResults(arguments);
   if (verb == "run-job") return RunOne(arguments);
   arguments.request.suite = arguments.words.back();
   const BenchmarkPlan plan = Plan(arguments);
@@ -116,13 +152,22 @@ void Benchmark(BenchmarkArguments arguments) {
 
 void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
   BenchmarkRequest& request = arguments.request;
-  command.add_option("WHAT", arguments.words, "SUITE, plan SUITE, run-job K or merge")
+  command.add_option("WHAT", arguments.words, "SUITE, plan SUITE, run-job K, merge or results")
       ->required()
       ->expected(1, 2);
   command.add_option("--data", request.data, "Folder that holds the sequences, at any depth");
-  command.add_option("--output", arguments.output, "Folder for plan, runs and tables")->required();
+  command
+      .add_option("--output", arguments.output,
+                  "Folder for plan, runs and tables; the document of results (.md)")
+      ->required();
   command.add_option("--systems", request.systems,
                      "Presets (configs/systems) or .yaml files (default: those of the paper)");
+  command.add_option("--variants", request.variants,
+                     "Of the ablation (YAML, default configs/ablation.yaml); --systems chooses "
+                     "among their names");
+  command.add_option("--weights", request.weights, "Of matching: LIFT again with these files");
+  command.add_option("--pairs", request.pairs, "Of matching: first images of each sequence")
+      ->capture_default_str();
   command.add_option("--sequences", request.sequences, "Only these of the suite");
   command.add_option("--conditions", request.conditions,
                      "Distortions, 'none' for images as they are (default: the suite's)");
@@ -137,6 +182,7 @@ void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
                   "tables and figures")
       ->type_name("NAME=FOLDER")
       ->allow_extra_args(false);
+  command.add_option("--from", arguments.from, "Of results: folders of benchmarks, in order");
   command.add_option("--publications", arguments.publications,
                      "Numbers of others to show beside ours (YAML; '' for none)");
 }
@@ -147,15 +193,19 @@ void AddBenchmarkCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "benchmark", "Systems on the sequences of a suite, several runs each, as tables");
   const auto arguments = std::make_shared<BenchmarkArguments>();
+  arguments->request.variants = LIFT_SLAM_VARIANTS;
   AddOptions(*command, *arguments);
   command->footer(
-      "Suites: kitti, euroc, rendered, shared (whatever is there), robustness, thresholds.\n"
+      "Suites: kitti, euroc, rendered, shared (whatever is there), robustness, thresholds, "
+      "ablation,\n"
+      "matching (pairs of images).\n"
       "Runs that are finished are never repeated; a benchmark that was stopped goes on.\n"
       "Examples:\n"
       "  lift_slam benchmark kitti --data ~/kitti --output bench --jobs 2\n"
       "  lift_slam benchmark plan euroc --data ~/euroc --output bench\n"
       "  seq 55 | parallel lift_slam benchmark run-job {} --output bench\n"
-      "  lift_slam benchmark merge --output bench --external DeepVO=~/deepvo");
+      "  lift_slam benchmark merge --output bench --external DeepVO=~/deepvo\n"
+      "  lift_slam benchmark results --from bench bench2 --output docs/results.md");
   command->callback([arguments] { Benchmark(*arguments); });
 }
 

@@ -5,10 +5,13 @@
 #include <csignal>
 #include <map>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "apps/run_test_fixture.h"
+#include "lift_slam/testing/real_data.h"
 #include "lift_slam/util/file.h"
+#include "lift_slam/util/number_text.h"
 #include "lift_slam/visualization/xml_check_for_test.h"
 
 namespace lift_slam {
@@ -48,13 +51,19 @@ TEST_F(BenchmarkCommand, RunsKittiAndListsWhatIsMissing) {
   EXPECT_THAT(ReadText(output_ / "tables.tex"), HasSubstr("Algorithm & Metric & 00* & 01"));
   const std::string page = ReadText(output_ / "tables.html");
   EXPECT_TRUE(fs::is_regular_file(output_ / "figures/trajectory_00.svg"));
+  if (fs::is_regular_file("/usr/bin/rsvg-convert")) {
+    EXPECT_THAT(ReadText(output_ / "figures/trajectory_00.pdf"), testing::StartsWith("%PDF"));
+  }
   EXPECT_THAT(page, HasSubstr("ground truth"));
   EXPECT_EQ(XmlProblem(page, /*html=*/true), "");
   for (const char* name : {"tables.csv", "tables.tex", "tables.html"}) {
     EXPECT_TRUE(fs::is_regular_file(output_ / name)) << name;
   }
-  const Outcome again = RunProgram(Arguments("kitti") + " --runs 1");
+  const Outcome again = RunProgram(Arguments("kitti") + " --runs 1", "PATH=/none ");
   EXPECT_THAT(again.output, HasSubstr("0 done now, 2 were done, 0 failed"));
+  EXPECT_THAT(again.output, HasSubstr("figures as SVG alone: rsvg-convert is not there"));
+  EXPECT_FALSE(fs::exists(output_ / "figures/trajectory_00.pdf"));
+  EXPECT_TRUE(fs::is_regular_file(output_ / "figures/trajectory_00.svg"));
 }
 
 TEST_F(BenchmarkCommand, RunsEurocJobByJob) {
@@ -193,11 +202,158 @@ TEST_F(BenchmarkCommand, ThresholdsArePlanned) {
   EXPECT_THAT(plan, HasSubstr("LIFT-SLAM, TH_LOW 1, TH_HIGH 1.5"));
 }
 
+TEST_F(BenchmarkCommand, VariantsAreComparedOnWhateverIsThere) {
+  Render(SequenceLayout::kKittiOdometry, 40);
+  const fs::path variants = folder_ / "variants.yaml";
+  WriteTextAtomically(variants,
+                      "base: default_orb\nvariants:\n- {name: default, title: as it is}\n"
+                      "- {name: few, title: 600 features, set: [slam.orb.max_features=600]}\n");
+  const std::string ablation = fmt::format("benchmark ablation --data {}/data --output {} --runs 2",
+                                           folder_.string(), output_.string());
+  const Outcome outcome = RunProgram(ablation + " --variants " + variants.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("4 done now, 0 were done, 0 failed"));
+  for (const char* title : {"ATE RMSE, median of the runs [m] | 00", "least to largest [m] | 00",
+                            "| Coverage, mean [%] | 00", "| Time of a frame, median"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(title));
+  }
+  EXPECT_THAT(outcome.output, HasSubstr("| 600 features | 100.0 |"));
+  EXPECT_THAT(ReadText(output_ / "tables.csv"), HasSubstr("\"600 features\",\"00\",frame_ms,2,2,"));
+  EXPECT_THAT(ReadText(output_ / "figures/ate_00.svg"), HasSubstr(">600 features<"));
+
+  for (const std::string& name : Finished()) {
+    WriteTextAtomically(output_ / "results" / name / "log.txt",
+                        "0 warning: LIFT's descriptors in bfloat16: int8 needs ranges\n");
+  }
+  EXPECT_THAT(RunProgram("benchmark merge --output " + output_.string()).output,
+              HasSubstr("\n600 features: LIFT's descriptors in bfloat16: int8 needs ranges.\n"));
+
+  ExpectOneSentence(RunProgram(ablation + " --systems fewer --variants " + variants.string()),
+                    {"variant 'fewer' is unknown", "'few'"});
+  WriteTextAtomically(variants, "base: default_orb\nvariants:\n- {name: default}\n");
+  ExpectOneSentence(RunProgram(ablation + " --variants " + variants.string()),
+                    {"variants.yaml", "name, title and set"});
+}
+
+TEST_F(BenchmarkCommand, TheShippedAblationChangesOnlySettingsThatExist) {
+  Render(SequenceLayout::kKittiOdometry, 4);
+  const Outcome outcome =
+      RunProgram(fmt::format("benchmark plan ablation --data {}/data --output {} --runs 1",
+                             folder_.string(), output_.string()));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("plan        11 runs"));
+  EXPECT_THAT(ReadText(output_ / "plan.json"), HasSubstr("slam.lift.precision=int8"));
+}
+
+TEST_F(BenchmarkCommand, MatchingIsCountedOverPairsAndGoesOn) {
+  Render(SequenceLayout::kKittiOdometry, 14);
+  const std::string matching = Arguments("matching", "orb sift") + " --pairs 3";
+  const Outcome planned = RunProgram("benchmark plan " + matching.substr(10));
+  EXPECT_THAT(planned.output, HasSubstr("plan        2 runs"));
+  ASSERT_EQ(RunProgram("benchmark run-job 1 --output " + output_.string()).exit_code, 0);
+  const Outcome outcome = RunProgram(matching);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("1 done now, 1 were done, 0 failed"));
+  EXPECT_THAT(outcome.output, HasSubstr("| 00: inliers, mean of the pairs | t+1 | t+2 |"));
+  const std::string csv = ReadText(output_ / "tables.csv");
+  EXPECT_THAT(csv, HasSubstr("matching,\"ORB\",\"00\",t+10,3,"));
+  EXPECT_THAT(csv, HasSubstr("matching,\"SIFT\",\"00\",gamma=0.25,3,"));
+  for (const char* name : {"skip_00.svg", "gamma_00.svg"}) {
+    EXPECT_EQ(XmlProblem(ReadText(output_ / "figures" / name)), "") << name;
+  }
+  ExpectOneSentence(RunProgram(matching + " --set slam.seed=1"), {"--set"});
+}
+
+TEST_F(BenchmarkCommand, ResultsBecomeADocumentThatTheSameResultsGiveAgain) {
+  Render(SequenceLayout::kKittiOdometry, 40);
+  ASSERT_EQ(RunProgram(Arguments("kitti", "default_orb") + " --runs 1").exit_code, 0);
+  const fs::path matching = folder_ / "matching", document = folder_ / "docs/results.md";
+  ASSERT_EQ(RunProgram(fmt::format("benchmark matching --data {}/data --systems orb --pairs 2 "
+                                   "--output {}",
+                                   folder_.string(), matching.string()))
+                .exit_code,
+            0);
+  fs::create_directories(folder_ / "docs/results");
+  WriteTextAtomically(folder_ / "docs/results/old.svg", "<svg/>");
+  const std::string results = fmt::format("benchmark results --from {} {} --output {}",
+                                          output_.string(), matching.string(), document.string());
+  const Outcome outcome = RunProgram(results);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string text = ReadText(document);
+  for (const char* part :
+       {"## kitti\n", "## matching\n", "| finished | 1 of 1 jobs |", "| SHA-256, sequence 00 | `",
+        "| SHA-256, settings of ours, ORB features, seed 0 | `", "| processor | ",
+        "![00](results/kitti_trajectory_00.svg)", "![00](results/matching_skip_00.svg)"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "docs/results/old.svg"));
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "docs/results/kitti_trajectory_00.svg"));
+  ASSERT_EQ(RunProgram(results).exit_code, 0);
+  EXPECT_EQ(ReadText(document), text);
+
+  ExpectOneSentence(RunProgram("benchmark results --output " + document.string()), {"--from"});
+  ExpectOneSentence(
+      RunProgram(fmt::format("benchmark results --from {0} --output {0}", output_.string())),
+      {"must end in .md"});
+  fs::remove_all(output_ / "results");
+  ExpectOneSentence(RunProgram(results), {"has no finished run"});
+}
+
+// Inliers of the mean under a condition, of features on the only sequence of a table.
+double InliersIn(const std::string& csv, const std::string& features,
+                 const std::string& condition) {
+  const std::size_t row = csv.find("matching,\"" + features + "\",\"06\"," + condition + ",");
+  if (row == std::string::npos) return -1.0;
+  std::istringstream rest(csv.substr(row));
+  std::string field;
+  for (int i = 0; i < 8; ++i) std::getline(rest, field, ',');
+  return ParseDouble(field).value_or(-1.0);
+}
+
+TEST_F(BenchmarkCommand, LiftMatchesDarkRealImagesBetterThanOrb) {
+  if (RealDataFolder().empty()) GTEST_SKIP() << "no real data: set LIFT_SLAM_DATA";
+  const fs::path kitti = RealDataFolder() / "kitti";
+  if (!fs::is_directory(kitti / "sequences/06")) GTEST_SKIP() << "no KITTI 06 in " << kitti;
+  const Outcome outcome = RunProgram(
+      fmt::format("benchmark matching --data {} --sequences 06 --systems orb lift --pairs 2 "
+                  "--output {}",
+                  kitti.string(), output_.string()));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string csv = ReadText(output_ / "tables.csv");
+  for (const char* condition : {"t+5", "gamma=0.25", "gamma=4"}) {
+    EXPECT_GT(InliersIn(csv, "LIFT", condition), 1.3 * InliersIn(csv, "ORB", condition))
+        << condition;
+    EXPECT_GT(InliersIn(csv, "ORB", condition), 8.0) << condition;
+  }
+}
+
+TEST_F(BenchmarkCommand, PairsNeedElevenFrames) {
+  const fs::path sequence = Render(SequenceLayout::kKittiOdometry, 10);
+  ExpectOneSentence(RunProgram(fmt::format("match-sequence {} --features orb --output {}",
+                                           sequence.string(), output_.string())),
+                    {"has 10 frames", "need 11"});
+}
+
+TEST_F(BenchmarkCommand, SequencesOfOneNameAreToldApart) {
+  const fs::path first = Render(SequenceLayout::kKittiOdometry, 4);
+  for (const char* track : {"oval", "hills"}) {
+    fs::create_directories(folder_ / "tracks" / track / "sequences");
+    fs::copy(first, folder_ / "tracks" / track / "sequences/00", fs::copy_options::recursive);
+  }
+  const Outcome outcome = RunProgram(
+      fmt::format("benchmark plan shared --data {}/tracks --output {} --runs 1 --systems orb_slam",
+                  folder_.string(), output_.string()));
+  EXPECT_THAT(outcome.output, HasSubstr("plan        2 runs"));
+  const std::string plan = ReadText(output_ / "plan.json");
+  EXPECT_THAT(plan, HasSubstr("\"sequence\": \"oval\""));
+  EXPECT_THAT(plan, HasSubstr("\"sequence\": \"hills\""));
+}
+
 TEST_F(BenchmarkCommand, BadArgumentsAreExplained) {
   fs::create_directories(folder_ / "data");
   ExpectOneSentence(RunProgram(Arguments("kiti")), {"suite 'kiti' is unknown", "robustness"});
   ExpectOneSentence(RunProgram(Arguments("kitti")), {"nothing to run", "sequence 00"});
-  ExpectOneSentence(RunProgram(Arguments("matching")), {"benchmark-features"});
+  ExpectOneSentence(RunProgram(Arguments("matching")), {"'default_orb'", "orb, sift and lift"});
   ExpectOneSentence(RunProgram(Arguments("rendered")), {"lift_slam render makes some"});
   ExpectOneSentence(RunProgram("benchmark kitti --output " + output_.string()), {"--data"});
 }

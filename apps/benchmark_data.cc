@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <set>
 #include <sstream>
 
+#include "apps/build_info.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
@@ -63,6 +65,20 @@ std::string RenderedName(const fs::path& folder) {
   return folder.parent_path().filename() == "sequences"
              ? folder.parent_path().parent_path().filename().string()
              : folder.filename().string();
+}
+
+// Names that several sequences share become those of RenderedName, and where these are shared too
+// the way from `data`.
+void MakeNamesDifferent(const fs::path& data, std::vector<BenchmarkSequence>& sequences) {
+  const auto rename_shared = [&](const auto& name_of) {
+    std::map<std::string, int> counts;
+    for (const BenchmarkSequence& sequence : sequences) ++counts[sequence.name];
+    for (BenchmarkSequence& sequence : sequences) {
+      if (counts[sequence.name] > 1) sequence.name = name_of(sequence.folder);
+    }
+  };
+  rename_shared(RenderedName);
+  rename_shared([&](const fs::path& folder) { return folder.lexically_relative(data).string(); });
 }
 
 template <class Names>
@@ -123,11 +139,12 @@ std::vector<BenchmarkSequence> FindBenchmarkSequences(const std::string& suite,
     Choose(kThresholdsEuroc, "euroc", found, chosen);
     Choose(kThresholdsKitti, "kitti", found, chosen);
   }
-  if (suite == "rendered" || suite == "shared") {
+  if (suite == "rendered" || suite == "shared" || suite == "ablation" || suite == "matching") {
     for (BenchmarkSequence& sequence : found) {
       if (suite == "rendered") sequence.name = RenderedName(sequence.folder);
       chosen.push_back(sequence);
     }
+    MakeNamesDifferent(fs::canonical(data), chosen);
   }
   return chosen;
 }
@@ -156,9 +173,15 @@ std::string SequenceIdentity(const fs::path& folder) {
   return Sha256Hex(text);
 }
 
+std::string ProgramIdentity() {
+  const std::string revision = kGitRevision;
+  if (!revision.ends_with("-dirty") && revision != "unknown") return revision;
+  return revision + " " + Sha256Hex(ReadText("/proc/self/exe"));
+}
+
 BenchmarkSystem FindBenchmarkSystem(const std::string& name, const std::string& dataset) {
   const fs::path folder = PresetFolder();
-  BenchmarkSystem system{name, name, {}, {}, {}};
+  BenchmarkSystem system{name, name, {}, {}, {}, {}};
   for (const fs::path& path :
        {fs::path(name), folder / (name + "." + dataset + ".yaml"), folder / (name + ".yaml")}) {
     if (system.config.empty() && path.extension() == ".yaml" && fs::is_regular_file(path)) {

@@ -27,6 +27,9 @@ int PublishedFrames(const std::string& sequence);
 // wherever the folder lies, so that results outlive a move of the data.
 std::string SequenceIdentity(const std::filesystem::path& folder);
 
+// The program's revision; of a build that differs from it, or of none, the program itself too.
+std::string ProgramIdentity();
+
 // A system: a file of options, and remarks in its first lines ("# title: ...", "# skip: 00 06",
 // "# make: ...": how its weights are made).
 struct BenchmarkSystem {
@@ -34,6 +37,7 @@ struct BenchmarkSystem {
   std::filesystem::path config;
   std::vector<std::string> skipped_sequences;  // it was trained with them
   std::string making;                          // of its weights; empty: nothing is said
+  std::vector<std::string> settings;           // key=value over the file
 };
 
 // The preset for a dataset: NAME.DATASET.yaml where it exists, else NAME.yaml; or a file. Throws

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "apps/benchmark_truth.h"
@@ -26,22 +25,6 @@ constexpr PlotColor kColors[] = {PlotColor::kBlue,   PlotColor::kVermilion, Plot
 PlotColor ColorOf(const BenchmarkPlan& plan, const std::string& title) {
   const auto at = std::ranges::find(plan.titles, title) - plan.titles.begin();
   return kColors[static_cast<std::size_t>(at) % std::size(kColors)];
-}
-
-std::string FileName(const std::string& text) {
-  std::string name;
-  for (const char c : text) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-';
-    if (is_plain) name += c;
-    if (!is_plain && !name.empty() && name.back() != '_') name += '_';
-  }
-  return name;
-}
-
-BenchmarkPicture Picture(std::string section, const std::string& name, std::string title,
-                         std::string note, const auto& plot) {
-  return {std::move(section), FileName(name) + ".svg", std::move(title),
-          std::move(note),    RenderSvg(plot),         RenderSvgFile(plot)};
 }
 
 // The first that ended, of a system on a sequence as it is.
@@ -131,8 +114,8 @@ void AddTrajectories(const BenchmarkPlan& plan, const std::vector<BenchmarkRun>&
   plot.series.push_back(Path(truth->poses, truth->view, "ground truth", PlotColor::kGray, 4.0));
   plot.series.insert(plot.series.end(), paths.begin(), paths.end());
   std::string note = failed.empty() ? "" : "Failed, not drawn: " + failed + ".";
-  pictures.push_back(Picture("Trajectories, first run of each system", "trajectory_" + sequence,
-                             sequence, std::move(note), plot));
+  pictures.push_back(MakePicture("Trajectories, first run of each system", "trajectory_" + sequence,
+                                 sequence, std::move(note), plot));
 }
 
 // Mean over the runs; failed when none succeeded.
@@ -164,7 +147,31 @@ void AddConditions(const BenchmarkPlan& plan, const BenchmarkCells& cells,
   }
   if (!has_value) return;
   std::ranges::replace(chart.categories, "none", "undistorted");
-  pictures.push_back(Picture("ATE by condition", "ate_" + sequence, sequence, "", chart));
+  pictures.push_back(MakePicture("ATE by condition", "ate_" + sequence, sequence, "", chart));
+}
+
+// Variants one under another: median of the runs, and a bar from the least to the largest.
+void AddVariants(const BenchmarkPlan& plan, const BenchmarkCells& cells, const std::string& column,
+                 std::vector<BenchmarkPicture>& pictures) {
+  DotChart chart;
+  chart.description = "Error of each variant on " + column;
+  chart.axis.label = "ATE RMSE [m]";
+  chart.categories = plan.titles;
+  chart.width_px = 720;
+  DotSeries series{"median", PlotColor::kBlue, {}};
+  for (const std::string& title : plan.titles) {
+    const double mean = ConditionValue(cells, title, column);
+    const auto found = cells.find({title, column});
+    const RunStatistics s =
+        found == cells.end() ? RunStatistics() : found->second.Statistics(kAteFigure);
+    series.values.push_back(std::isfinite(mean) ? s.median : mean);
+    series.low.push_back(std::isfinite(mean) ? s.min : DotSeries::kNone);
+    series.high.push_back(std::isfinite(mean) ? s.max : DotSeries::kNone);
+  }
+  if (std::ranges::all_of(series.values, [](double value) { return std::isnan(value); })) return;
+  chart.series = {std::move(series)};
+  pictures.push_back(MakePicture("ATE of each variant", "ate_" + column, column,
+                                 "Median of the runs; bar: least to largest.", chart));
 }
 
 // Columns of frames.csv by name.
@@ -228,9 +235,9 @@ void AddThresholds(const std::vector<BenchmarkRun>& runs, const std::string& tit
   plot.series = {
       {"high (guided)", SeriesKind::kLine, PlotColor::kVermilion, columns.frame, columns.high, 1.5},
       {"low (strict)", SeriesKind::kLine, PlotColor::kBlue, columns.frame, columns.low, 1.5}};
-  pictures.push_back(Picture("Adaptive thresholds, first run of each system",
-                             "thresholds_" + sequence + "_" + title, title + ", " + sequence, "",
-                             plot));
+  pictures.push_back(MakePicture("Adaptive thresholds, first run of each system",
+                                 "thresholds_" + sequence + "_" + title, title + ", " + sequence,
+                                 "", plot));
 }
 
 }  // namespace
@@ -238,10 +245,18 @@ void AddThresholds(const std::vector<BenchmarkRun>& runs, const std::string& tit
 std::vector<BenchmarkPicture> MakeBenchmarkPictures(const BenchmarkPlan& plan,
                                                     const std::vector<BenchmarkRun>& runs) {
   std::vector<BenchmarkPicture> pictures;
+  const BenchmarkCells cells = SortIntoCells(plan, runs);
+  if (plan.suite == "ablation") {
+    for (const std::string& sequence : plan.sequences) {
+      for (const std::string& condition : plan.conditions) {
+        AddVariants(plan, cells, ColumnKey(sequence, condition), pictures);
+      }
+    }
+    return pictures;
+  }
   for (const std::string& sequence : plan.sequences) {
     AddTrajectories(plan, runs, sequence, pictures);
   }
-  const BenchmarkCells cells = SortIntoCells(plan, runs);
   for (const std::string& sequence : plan.sequences) {
     if (plan.conditions.size() > 1) AddConditions(plan, cells, sequence, pictures);
   }

@@ -29,7 +29,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::vector<std::string> MatchingCommandLine(const BenchmarkJob& job, const fs::path& output) {
+  std::vector<std::string> words = {"lift_slam", "match-sequence", job.source.string(),
+                                    "--output",  output.string(),  "--features",
+                                    job.system,  "--pairs",        std::to_string(job.pairs)};
+  if (!job.weights.empty()) words.insert(words.end(), {"--weights", job.weights.string()});
+  if (!job.frames.empty()) words.insert(words.end(), {"--frames", job.frames});
+  return words;
+}
+
 std::vector<std::string> CommandLine(const BenchmarkJob& job, const fs::path& output) {
+  if (job.pairs > 0) return MatchingCommandLine(job, output);
   std::vector<std::string> words = {"lift_slam",         "run",           job.source.string(),
                                     "--output",          output.string(), "--config",
                                     job.config.string(), "--seed",        std::to_string(job.seed)};

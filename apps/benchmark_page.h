@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/benchmark_figures.h"
+#include "apps/benchmark_picture.h"
 #include "apps/benchmark_plan.h"
 #include "apps/benchmark_table_text.h"
 

@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/benchmark_data.h"
+#include "apps/benchmark_matching_plan.h"
+#include "apps/benchmark_variants.h"
 #include "apps/build_info.h"
 #include "apps/program_options.h"
+#include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/image/image_distortion.h"
 #include "lift_slam/util/config_file.h"
 #include "lift_slam/util/file.h"
@@ -72,13 +76,6 @@ std::string WhereFrom(const std::string& dataset) {
                             : "EuRoC MAV, ASL dataset format";
 }
 
-// The revision; of a build that differs from it, or of none, the program itself too.
-std::string ProgramIdentity() {
-  const std::string revision = kGitRevision;
-  if (!revision.ends_with("-dirty") && revision != "unknown") return revision;
-  return revision + " " + Sha256Hex(ReadText("/proc/self/exe"));
-}
-
 class PlanMaker {
  public:
   explicit PlanMaker(const BenchmarkRequest& request) : request_(request) {
@@ -86,24 +83,17 @@ class PlanMaker {
     plan_.revision = kGitRevision;
     plan_.frames = request.frames;
     plan_.conditions = Conditions(request);
+    if (request.suite == "ablation") variants_ = ReadBenchmarkVariants(request.variants);
   }
 
   BenchmarkPlan Make() {
-    const auto sequences = FindBenchmarkSequences(request_.suite, request_.data);
-    for (const std::string& wanted : request_.sequences) {
-      if (std::ranges::none_of(sequences, [&](const auto& s) { return s.name == wanted; })) {
-        throw InputError(
-            fmt::format("--sequences: '{}' is not in the suite '{}'", wanted, request_.suite));
-      }
-    }
-    for (const BenchmarkSequence& sequence : sequences) {
-      if (!request_.sequences.empty() && !Contains(request_.sequences, sequence.name)) continue;
+    for (const BenchmarkSequence& sequence : ChosenSequences(request_)) {
       plan_.sequences.push_back(sequence.name);
       if (sequence.folder.empty()) {
         plan_.missing.push_back(fmt::format("sequence {} is not below {} ({})", sequence.name,
                                             request_.data.string(), WhereFrom(sequence.dataset)));
       }
-      for (const std::string& name : Systems(request_)) AddSystem(name, sequence);
+      for (const std::string& name : SystemNames()) AddSystem(name, sequence);
     }
     // Round after round, so that a benchmark cut short has something of everything.
     std::ranges::stable_sort(plan_.jobs, {}, &BenchmarkJob::seed);
@@ -111,8 +101,33 @@ class PlanMaker {
   }
 
  private:
+  std::vector<std::string> SystemNames() const {
+    if (!variants_ || !request_.systems.empty()) return Systems(request_);
+    std::vector<std::string> names;
+    for (const BenchmarkVariant& variant : variants_->variants) names.push_back(variant.name);
+    return names;
+  }
+
+  // A preset, or a variant of the ablation.
+  BenchmarkSystem FindSystem(const std::string& name, const std::string& dataset) const {
+    if (!variants_) return FindBenchmarkSystem(name, dataset);
+    const BenchmarkVariant& variant = FindVariant(*variants_, name);
+    BenchmarkSystem system = FindBenchmarkSystem(variants_->base, dataset);
+    system.name = variant.name;
+    system.title = variant.title;
+    system.settings = variant.settings;
+    return system;
+  }
+
+  // What the variant says counts more than what is asked for all.
+  std::vector<std::string> Settings(const BenchmarkSystem& system) const {
+    std::vector<std::string> settings = request_.overrides;
+    settings.insert(settings.end(), system.settings.begin(), system.settings.end());
+    return settings;
+  }
+
   void AddSystem(const std::string& name, const BenchmarkSequence& sequence) {
-    const BenchmarkSystem system = FindBenchmarkSystem(name, sequence.dataset);
+    const BenchmarkSystem system = FindSystem(name, sequence.dataset);
     if (!Contains(plan_.titles, system.title)) plan_.titles.push_back(system.title);
     if (sequence.folder.empty()) return;
     if (Contains(system.skipped_sequences, sequence.name)) {
@@ -120,7 +135,7 @@ class PlanMaker {
       return;
     }
     ProgramOptions options;
-    ConfigureOptions(system.config, request_.overrides, MakeOptionRoot(options));
+    ConfigureOptions(system.config, Settings(system), MakeOptionRoot(options));
     const fs::path named = options.slam.features.lift_weights;
     const fs::path weights = FindWeights(named, system.config);
     if (!named.empty() && weights.empty()) {
@@ -136,6 +151,9 @@ class PlanMaker {
 
   void AddJobs(const BenchmarkSystem& system, const BenchmarkSequence& sequence,
                ProgramOptions& options, const fs::path& weights) {
+    const bool is_lift = options.slam.features.type == FeatureType::kLift;
+    const std::string lift_hash = is_lift ? WeightsHash(weights) : "";
+    plan_.hashes["sequence " + sequence.name] = IdentityOf(sequence.folder);
     for (const std::string& condition : plan_.conditions) {
       for (int seed = 0; seed < request_.runs; ++seed) {
         BenchmarkJob job{system.name,
@@ -146,14 +164,14 @@ class PlanMaker {
                          sequence.folder,
                          system.config,
                          weights,
-                         request_.overrides,
+                         Settings(system),
                          request_.frames,
+                         0,
                          ""};
-        const std::string identity =
-            fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}",
-                        OptionsToYaml(MakeOptionRoot(options)), WeightsHash(weights), program_,
-                        job.sequence, IdentityOf(job.source), job.distortion, job.frames, seed,
-                        job.system);  // two systems alike still have a folder each
+        const std::string identity = fmt::format(
+            "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", OptionsToYaml(MakeOptionRoot(options)), lift_hash,
+            program_, job.sequence, IdentityOf(job.source), job.distortion, job.frames, seed,
+            job.system);  // two systems alike still have a folder each
         job.hash = Sha256Hex(identity).substr(0, 16);
         plan_.jobs.push_back(job);
       }
@@ -168,11 +186,15 @@ class PlanMaker {
 
   const std::string& WeightsHash(const fs::path& weights) {
     std::string& hash = weight_hashes_[weights];
-    if (hash.empty()) hash = weights.empty() ? "shipped" : Sha256Hex(ReadText(weights));
+    if (!hash.empty()) return hash;
+    const fs::path file = weights.empty() ? DefaultLiftWeights() : weights;
+    hash = Sha256Hex(ReadText(file));
+    plan_.hashes["weights " + file.filename().string()] = hash;
     return hash;
   }
 
   const BenchmarkRequest& request_;
+  std::optional<BenchmarkVariants> variants_;  // of the ablation
   BenchmarkPlan plan_;
   const std::string program_ = ProgramIdentity();
   std::map<fs::path, std::string> weight_hashes_, sequence_identities_;
@@ -189,6 +211,7 @@ Json ToJson(const BenchmarkJob& job) {
           {"weights", job.weights.string()},
           {"overrides", job.overrides},
           {"frames", job.frames},
+          {"pairs", job.pairs},
           {"hash", job.hash}};
 }
 
@@ -204,20 +227,33 @@ BenchmarkJob JobFromJson(const Json& json) {
   job.weights = json.at("weights").get<std::string>();
   job.overrides = json.at("overrides").get<std::vector<std::string>>();
   job.frames = json.at("frames").get<std::string>();
+  job.pairs = json.value("pairs", 0);
   job.hash = json.at("hash").get<std::string>();
   return job;
 }
 
 }  // namespace
 
-BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
-  if (request.suite == "matching") {
-    throw InputError("'lift_slam benchmark-features' measures matching, over pairs of images");
+std::vector<BenchmarkSequence> ChosenSequences(const BenchmarkRequest& request) {
+  auto sequences = FindBenchmarkSequences(request.suite, request.data);
+  for (const std::string& wanted : request.sequences) {
+    if (std::ranges::none_of(sequences, [&](const auto& s) { return s.name == wanted; })) {
+      throw InputError(
+          fmt::format("--sequences: '{}' is not in the suite '{}'", wanted, request.suite));
+    }
   }
+  std::erase_if(sequences, [&](const BenchmarkSequence& sequence) {
+    return !request.sequences.empty() && !Contains(request.sequences, sequence.name);
+  });
+  return sequences;
+}
+
+BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
   if (std::ranges::find(kBenchmarkSuites, request.suite) == std::end(kBenchmarkSuites)) {
     throw InputError(fmt::format("suite '{}' is unknown; expected one of {}", request.suite,
                                  fmt::join(kBenchmarkSuites, ", ")));
   }
+  if (request.suite == "matching") return MakeMatchingPlan(request);
   if (request.runs < 1) throw InputError("--runs must be at least 1");
   BenchmarkPlan plan = PlanMaker(request).Make();
   if (!plan.jobs.empty()) return plan;
@@ -230,10 +266,11 @@ BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request) {
 }
 
 void WriteBenchmarkPlan(const BenchmarkPlan& plan, const fs::path& folder) {
-  Json json = {
-      {"suite", plan.suite},     {"revision", plan.revision},   {"frames", plan.frames},
-      {"titles", plan.titles},   {"sequences", plan.sequences}, {"conditions", plan.conditions},
-      {"skipped", plan.skipped}, {"missing", plan.missing},     {"jobs", Json::array()}};
+  Json json = {{"suite", plan.suite},         {"revision", plan.revision},
+               {"frames", plan.frames},       {"titles", plan.titles},
+               {"sequences", plan.sequences}, {"conditions", plan.conditions},
+               {"skipped", plan.skipped},     {"missing", plan.missing},
+               {"hashes", plan.hashes},       {"jobs", Json::array()}};
   for (const BenchmarkJob& job : plan.jobs) json["jobs"].push_back(ToJson(job));
   WriteTextAtomically(folder / "plan.json", json.dump(1) + "\n");
 }
@@ -252,6 +289,7 @@ BenchmarkPlan ReadBenchmarkPlan(const fs::path& folder) {
     plan.conditions = json.at("conditions").get<std::vector<std::string>>();
     plan.skipped = json.at("skipped").get<std::vector<std::string>>();
     plan.missing = json.at("missing").get<std::vector<std::string>>();
+    plan.hashes = json.value("hashes", plan.hashes);
     for (const Json& job : json.at("jobs")) plan.jobs.push_back(JobFromJson(job));
     return plan;
   } catch (const Json::exception&) {

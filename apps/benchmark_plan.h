@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "apps/benchmark_data.h"
 
 namespace lift_slam {
 
@@ -15,10 +18,14 @@ struct BenchmarkRequest {
   std::vector<std::string> conditions;  // distortions; "none": as they are; empty: the suite's
   std::vector<std::string> overrides;   // key=value for every system
   std::string frames;                   // part of every sequence: FIRST:LAST:STEP
+  std::filesystem::path variants;       // of the ablation: a file as configs/ablation.yaml
+  std::vector<std::filesystem::path> weights;  // of matching: LIFT again with each
+  int pairs = 20;                              // of matching: on each sequence and condition
   int runs = 5;
 };
 
-// One run of one system on one sequence: everything that decides its result.
+// One run of one system on one sequence, or matching of one kind of features over its pairs of
+// images: everything that decides its result.
 struct BenchmarkJob {
   std::string system, title;  // "adaptive", "Adaptive LIFT-SLAM"
   std::string sequence;       // "00", "MH_01"
@@ -28,6 +35,7 @@ struct BenchmarkJob {
   std::filesystem::path weights;  // empty: those that ship
   std::vector<std::string> overrides;
   std::string frames;
+  int pairs = 0;  // of images to match; 0: a run
   // SHA-256 of settings, weights, program, content of the sequence, part of it, seed and
   // distortion, 16 digits: the name of the folder of results.
   std::string hash;
@@ -43,10 +51,16 @@ struct BenchmarkPlan {
   // "TITLE|SEQUENCE" that a preset leaves out, since it was trained with the sequence.
   std::vector<std::string> skipped;
   std::vector<std::string> missing;  // sentences: sequences and weights that are not there
+  // SHA-256 of the sequences' content and of weights, by "sequence 00", "weights lift.safetensors".
+  std::map<std::string, std::string> hashes;
 };
 
-inline constexpr const char* kBenchmarkSuites[] = {"kitti",  "euroc",      "rendered",
-                                                   "shared", "robustness", "thresholds"};
+inline constexpr const char* kBenchmarkSuites[] = {
+    "kitti", "euroc", "rendered", "shared", "robustness", "thresholds", "ablation", "matching"};
+
+// Those of the suite that the request does not leave out, missing ones included. Throws InputError
+// for a name that the suite has not.
+std::vector<BenchmarkSequence> ChosenSequences(const BenchmarkRequest& request);
 
 // Throws InputError for an unknown suite, system or distortion, and when nothing can be run.
 BenchmarkPlan MakeBenchmarkPlan(const BenchmarkRequest& request);

@@ -31,6 +31,17 @@ std::optional<double> NumberAt(const Json& json, const char* pointer) {
   return json.at(p).get<double>();
 }
 
+// A line of a run's log about its descriptors; empty: there is none.
+std::string NoticeIn(const std::filesystem::path& log) {
+  constexpr const char* kBeginning = "LIFT's descriptors in ";
+  if (!std::filesystem::is_regular_file(log)) return {};
+  for (const std::string& line : ReadLines(log)) {
+    const std::size_t at = line.find(kBeginning);
+    if (at != std::string::npos) return line.substr(at);
+  }
+  return {};
+}
+
 }  // namespace
 
 BenchmarkRun RunFromResult(const std::string& text, const std::string& file) {
@@ -62,6 +73,7 @@ std::vector<BenchmarkRun> ReadBenchmarkRuns(const BenchmarkPlan& plan,
     run.condition = job.Condition();
     run.seed = job.seed;
     run.folder = results;
+    run.notice = NoticeIn(results / "log.txt");
     runs.push_back(std::move(run));
   }
   return runs;
@@ -104,7 +116,9 @@ BenchmarkCells SortIntoCells(const BenchmarkPlan& plan, const std::vector<Benchm
 std::vector<BenchmarkExcerpt> FindExcerpts(const BenchmarkPlan& plan,
                                            const std::vector<BenchmarkRun>& runs) {
   std::vector<BenchmarkExcerpt> excerpts;
-  if (plan.suite == "rendered" || plan.suite == "shared") return excerpts;
+  if (plan.suite == "rendered" || plan.suite == "shared" || plan.suite == "ablation") {
+    return excerpts;
+  }
   for (const std::string& sequence : plan.sequences) {
     BenchmarkExcerpt excerpt{sequence, 0, PublishedFrames(sequence)};
     for (const BenchmarkRun& run : runs) {

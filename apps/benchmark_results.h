@@ -22,10 +22,15 @@ struct BenchmarkFigure {
   double factor;        // from there to the unit of the title
   int decimals;
 };
-inline constexpr std::array<BenchmarkFigure, 3> kBenchmarkFigures = {
+inline constexpr std::array<BenchmarkFigure, 4> kBenchmarkFigures = {
     {{"ate_m", "ATE RMSE [m]", "/ate/rmse", 1.0, 3},
      {"t_rel_pct", "t_rel [%]", "/kitti/t_rel_pct", 1.0, 2},
-     {"r_rel_deg_per_100m", "r_rel [deg/100 m]", "/kitti/r_rel_deg_per_m", 100.0, 2}}};
+     {"r_rel_deg_per_100m", "r_rel [deg/100 m]", "/kitti/r_rel_deg_per_m", 100.0, 2},
+     // Extraction and tracking, mean over the frames.
+     {"frame_ms", "Time of a frame [ms]", "/timing/frame_ms/mean_ms", 1.0, 1}}};
+inline constexpr std::size_t kAteFigure = 0, kFrameTimeFigure = 3;
+inline constexpr std::size_t kNumErrorFigures =
+    3;  // the first ones; tables of the paper have these
 
 // One run that has ended, of ours or of another system.
 struct BenchmarkRun {
@@ -34,6 +39,7 @@ struct BenchmarkRun {
   RunStatus status = RunStatus::kFailInit;
   double coverage = 0.0;
   int frames_total = 0;
+  std::string notice;  // what the features could not do as asked: "LIFT's descriptors in ..."
   std::array<std::optional<double>, kBenchmarkFigures.size()> figures;  // by kBenchmarkFigures
   std::filesystem::path folder;  // of our results; empty: a trajectory from outside
   Trajectory aligned;            // of a trajectory from outside; in the ground truth's frame

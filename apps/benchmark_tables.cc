@@ -5,40 +5,14 @@
 
 #include <algorithm>
 
+#include "apps/benchmark_ablation.h"
+#include "apps/benchmark_entry.h"
 #include "apps/benchmark_page.h"
 #include "apps/benchmark_table_text.h"
 #include "lift_slam/util/input_error.h"
 
 namespace lift_slam {
 namespace {
-
-TableEntry MakeEntry(const BenchmarkCell* cell, bool is_skipped, std::size_t figure) {
-  if (is_skipped) return {"-", {}};
-  if (cell == nullptr || cell->runs.empty()) return {"?", {}};
-  const RunStatistics s = cell->Statistics(figure);
-  const int num_good = cell->NumGood();
-  if (num_good == 0) return {"X", {}};
-  if (s.num_used == 0) return {"n/a", {}};
-  TableEntry entry{fmt::format("{:.{}f}", s.mean, kBenchmarkFigures[figure].decimals), {}};
-  if (s.num_partial > 0) entry.text += fmt::format(" ({:.0f} %)", 100.0 * cell->MeanCoverage());
-  if (num_good < cell->planned) entry.text += fmt::format(" {}/{}", num_good, cell->planned);
-  if (s.num_partial == 0 && num_good == cell->planned) entry.contender = s.mean;
-  return entry;
-}
-
-void MarkBest(ResultTable& table) {
-  for (std::size_t column = 0; column < table.columns.size(); ++column) {
-    std::optional<double> best;
-    for (const TableRow& row : table.ours) {
-      const auto& value = row.entries[column].contender;
-      if (value && (!best || *value < *best)) best = value;
-    }
-    for (TableRow& row : table.ours) {
-      TableEntry& entry = row.entries[column];
-      entry.is_bold = best && entry.contender == best;
-    }
-  }
-}
 
 std::vector<TableRow> OtherRows(const std::filesystem::path& path, const std::string& suite,
                                 const char* figure, const std::vector<std::string>& columns) {
@@ -77,7 +51,8 @@ ResultTable MakeTable(const BenchmarkPlan& plan, const BenchmarkCells& cells, st
       for (const std::string& condition : plan.conditions) {
         const auto cell = cells.find({title, ColumnKey(sequence, condition)});
         row.entries.push_back(MakeEntry(cell == cells.end() ? nullptr : &cell->second,
-                                        IsSkipped(plan, title, sequence), figure));
+                                        IsSkipped(plan, title, sequence), figure,
+                                        CellStatistic::kMean));
       }
     }
     table.ours.push_back(row);
@@ -111,8 +86,9 @@ std::vector<ResultTable> MakeTables(const BenchmarkPlan& plan,
                                     const std::vector<BenchmarkRun>& runs,
                                     const BenchmarkCells& cells,
                                     const std::filesystem::path& publications) {
+  if (plan.suite == "ablation") return AblationTables(plan, cells);
   std::vector<ResultTable> tables;
-  for (std::size_t figure = 0; figure < kBenchmarkFigures.size(); ++figure) {
+  for (std::size_t figure = 0; figure < kNumErrorFigures; ++figure) {
     ResultTable table = MakeTable(plan, cells, figure);
     table.others =
         OtherRows(publications, plan.suite, kBenchmarkFigures[figure].key, table.columns);
@@ -173,13 +149,13 @@ ResultTable StatisticsTable(const BenchmarkPlan& plan, const BenchmarkCells& cel
 
 std::vector<std::string> Remarks(const BenchmarkPlan& plan, const std::vector<BenchmarkRun>& runs) {
   std::vector<std::string> remarks = {fmt::format(
-      "Means over the runs, revision {}. X: every run failed. -: left out, the system was trained "
+      "{}evision {}. X: every run failed. -: left out, the system was trained "
       "with the sequence (ours) or not given (others). ?: not run. n/a: not measured (no ground "
       "truth, or no stretch of 100 m). (p %): mean coverage where a "
       "run kept 50 to 90 % of the frames. k/n: runs that succeeded. Bold: best of ours, and of "
       "trajectories given, where all runs succeeded with at least 90 % of the frames. r_rel of the "
       "LIFT-SLAM paper is taken as deg/100 m.",
-      plan.revision)};
+      plan.suite == "ablation" ? "R" : "Means over the runs, r", plan.revision)};
   if (!plan.frames.empty()) {
     remarks.push_back(fmt::format("Only frames {} of each sequence were run.", plan.frames));
   }
@@ -188,6 +164,16 @@ std::vector<std::string> Remarks(const BenchmarkPlan& plan, const std::vector<Be
         "*: of {} only {} of {} frames were run; the numbers that others published are of all.",
         excerpt.sequence, excerpt.frames, excerpt.published_frames));
   }
+  if (plan.suite == "ablation") {
+    remarks.push_back(
+        "Time of a frame: extraction and tracking, without mapping; comparable where one run at a "
+        "time had the machine for itself.");
+  }
+  for (const std::string& title : plan.titles) {
+    const auto run = std::ranges::find_if(
+        runs, [&](const BenchmarkRun& r) { return r.title == title && !r.notice.empty(); });
+    if (run != runs.end()) remarks.push_back(title + ": " + run->notice + ".");
+  }
   for (const std::string& sentence : plan.missing) remarks.push_back("Missing: " + sentence + ".");
   return remarks;
 }
@@ -195,6 +181,11 @@ std::vector<std::string> Remarks(const BenchmarkPlan& plan, const std::vector<Be
 // Tables 1 and 3 of the paper have one figure, its Tables 2, 4 and 5 several.
 std::string Latex(const BenchmarkPlan& plan, const std::vector<ResultTable>& tables) {
   if (tables.size() == 1) return LatexTable(tables.front());
+  if (plan.suite == "ablation") {
+    std::string text;
+    for (const ResultTable& table : tables) text += LatexTable(table);
+    return text;
+  }
   return plan.conditions.size() > 1 ? LatexTableByColumn(tables) : LatexTableByRow(tables);
 }
 

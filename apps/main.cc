@@ -15,6 +15,7 @@
 #include "apps/extract_command.h"
 #include "apps/info_command.h"
 #include "apps/match_command.h"
+#include "apps/match_sequence_command.h"
 #include "apps/render_command.h"
 #include "apps/report_command.h"
 #include "apps/run_command.h"
@@ -29,13 +30,14 @@ namespace {
 
 // The sub-commands, in the order of --help.
 constexpr void (*kCommands[])(CLI::App&) = {
-    AddRunCommand,     AddEvaluateCommand,
-    AddReportCommand,  AddBenchmarkCommand,
-    AddRenderCommand,  AddSynthesizeCommand,
-    AddExtractCommand, AddMatchCommand,
-    AddDistortCommand, AddBenchmarkFeaturesCommand,
-    AddWeightsCommand, AddVocabularyCommand,
-    AddConfigCommand,  AddInfoCommand,
+    AddRunCommand,           AddEvaluateCommand,
+    AddReportCommand,        AddBenchmarkCommand,
+    AddRenderCommand,        AddSynthesizeCommand,
+    AddExtractCommand,       AddMatchCommand,
+    AddDistortCommand,       AddBenchmarkFeaturesCommand,
+    AddWeightsCommand,       AddVocabularyCommand,
+    AddConfigCommand,        AddInfoCommand,
+    AddMatchSequenceCommand,
 };
 
 void AddEverything(CLI::App& app) {

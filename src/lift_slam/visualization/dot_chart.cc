@@ -13,7 +13,8 @@ namespace lift_slam {
 namespace {
 
 constexpr double kMarginPx = 10.0, kDotRadiusPx = 4.0, kCrossPx = 3.5;
-constexpr double kFailedColumnPx = 48.0;  // right of the frame
+constexpr double kWidestFont = 1.1;       // DejaVu Sans, over the estimated width
+constexpr double kFailedColumnPx = 76.0;  // right of the frame
 constexpr double kLegendRowPx = 20.0, kAxisPx = 46.0, kTickSpacingPx = 72.0;
 constexpr double kRowPx = 16.0, kLanePx = 9.0;  // of a category, and more for each system
 
@@ -59,7 +60,7 @@ int LegendRows(const DotChart& chart, double left) {
 Layout LayOutChart(const DotChart& chart) {
   Layout l;
   for (const std::string& category : chart.categories) {
-    l.left = std::max(l.left, TextWidth(category) + 2.0 * kMarginPx);
+    l.left = std::max(l.left, kWidestFont * TextWidth(category) + 2.0 * kMarginPx);
   }
   l.top = 6.0 + kLegendRowPx * LegendRows(chart, l.left);
   l.width = chart.width_px - l.left - (HasFailure(chart) ? kFailedColumnPx : 2.0 * kMarginPx);
@@ -68,7 +69,11 @@ Layout LayOutChart(const DotChart& chart) {
   l.height_px = static_cast<int>(l.top + height + kAxisPx);
   AxisRange range;
   range.Add(chart.axis.min.value_or(0.0));
-  for (const DotSeries& series : chart.series) range.Add(series.values);
+  for (const DotSeries& series : chart.series) {
+    range.Add(series.values);
+    range.Add(series.low);
+    range.Add(series.high);
+  }
   const int max_ticks = std::max(2, static_cast<int>(l.width / kTickSpacingPx));
   l.range = GrownToTicks(range, max_ticks);
   l.ticks = MakeTicks(l.range, max_ticks, chart.axis.integers);
@@ -123,6 +128,15 @@ void PutFrame(const DotChart& chart, const Layout& l, std::string& out) {
       l.left + l.width + 0.5 * kFailedColumnPx, l.top + height + 16.0);
 }
 
+void PutBar(const DotSeries& series, std::size_t category, double y, const Layout& l,
+            std::string& out) {
+  if (category >= std::min(series.low.size(), series.high.size())) return;
+  const double low = series.low[category], high = series.high[category];
+  if (!std::isfinite(low) || !std::isfinite(high)) return;
+  Put(out, "<path class=\"p-s{}\" stroke-width=\"2\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n",
+      static_cast<int>(series.color), l.X(low), y, l.X(high));
+}
+
 void PutSeries(const DotSeries& series, std::size_t lane, std::size_t num_categories,
                const Layout& l, std::string& out) {
   const int color = static_cast<int>(series.color);
@@ -140,6 +154,7 @@ void PutSeries(const DotSeries& series, std::size_t lane, std::size_t num_catego
           "<path class=\"p-s{}\" stroke-width=\"1\" stroke-opacity=\"0.35\" d=\"M{:.1f} "
           "{:.1f}H{:.1f}\"/><circle class=\"p-f{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>\n",
           color, l.left, y, l.X(value), color, l.X(value), y, kDotRadiusPx);
+      PutBar(series, i, y, l, out);
     }
   }
 }

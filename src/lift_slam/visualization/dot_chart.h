@@ -17,6 +17,8 @@ struct DotSeries {
   std::string label;  // legend
   PlotColor color = PlotColor::kBlue;
   std::vector<double> values;  // one for each category
+  // Ends of a bar through the dot, such as least and largest; empty, or one for each category.
+  std::vector<double> low = {}, high = {};
 };
 
 struct DotChart {

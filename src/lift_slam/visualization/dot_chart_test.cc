@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lift_slam/visualization/plain_svg.h"
 #include "lift_slam/visualization/xml_check_for_test.h"
 
 namespace lift_slam {
@@ -43,6 +44,23 @@ TEST(DotChart, DrawsADotANumberAndACrossAFailure) {
   const std::string svg = RenderSvg(TwoSystems());
   EXPECT_EQ(Count(svg, "<circle"), 2U + 4U);  // legend and numbers
   EXPECT_EQ(Count(svg, "stroke-width=\"2\""), 1U);
+}
+
+TEST(DotChart, DrawsABarWhereThereAreEndsAndMakesRoomForIt) {
+  DotChart chart = TwoSystems();
+  chart.series[1].low = {0.25, DotSeries::kNone, 0.5};
+  chart.series[1].high = {40.0, DotSeries::kNone, 0.5};
+  const std::string svg = RenderSvg(chart);
+  EXPECT_EQ(Count(svg, "stroke-width=\"2\""), 1U + 1U);  // no bar without a dot
+  EXPECT_THAT(svg, HasSubstr(">40<"));
+}
+
+TEST(DotChart, PlainFileHasTheColoursOfLightPagesInsteadOfVariables) {
+  const std::string svg = PlainSvg(RenderSvgFile(TwoSystems()));
+  EXPECT_THAT(svg, Not(HasSubstr("var(")));
+  EXPECT_THAT(svg, HasSubstr(".p-s1{stroke:#0072b2}"));
+  EXPECT_EQ(XmlProblem(svg), "");
+  EXPECT_EQ(PlainSvg("<svg/>"), "<svg/>");
 }
 
 TEST(DotChart, LeavesNoRoomForFailuresWithoutOne) {

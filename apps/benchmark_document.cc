@@ -1,0 +1,147 @@
+#include "apps/benchmark_document.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "apps/benchmark_jobs.h"
+#include "apps/benchmark_outcome.h"
+#include "apps/benchmark_plan.h"
+#include "lift_slam/util/file.h"
+#include "lift_slam/util/input_error.h"
+
+namespace lift_slam {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::size_t kMaxFigureBytes = 60000;  // a document is kept with the source
+
+// Where the results of a benchmark come from.
+struct Origin {
+  int finished = 0;
+  std::set<std::string> processors, revisions, dates;
+  std::map<std::string, std::string> settings;  // SHA-256 by title, of the first run
+};
+
+std::string TextAt(const Json& json, const char* pointer) {
+  const Json::json_pointer p(pointer);
+  return json.contains(p) && json.at(p).is_string() ? json.at(p).get<std::string>() : "";
+}
+
+Origin FindOrigin(const BenchmarkPlan& plan, const fs::path& folder) {
+  Origin origin;
+  for (const BenchmarkJob& job : plan.jobs) {
+    if (!IsFinished(folder, job)) continue;
+    const fs::path file = ResultFolder(folder, job) / "result.json";
+    const Json json = Json::parse(ReadText(file), nullptr, /*allow_exceptions=*/false);
+    if (!json.is_object()) throw InputError(file.string() + ": is no result");
+    ++origin.finished;
+    const int threads = json.value(Json::json_pointer("/provenance/threads"), 0);
+    origin.processors.insert(
+        fmt::format("{}, {} threads", TextAt(json, "/provenance/cpu_name"), threads));
+    origin.revisions.insert(TextAt(json, "/provenance/git_revision"));
+    origin.dates.insert(TextAt(json, "/provenance/date_utc").substr(0, 10));
+    const std::string settings = TextAt(json, "/provenance/config_sha256");
+    if (!settings.empty()) origin.settings.try_emplace(job.title, settings);
+  }
+  return origin;
+}
+
+std::string Row(const std::string& title, const std::string& value) {
+  return fmt::format("| {} | {} |\n", title, value);
+}
+
+std::string OriginTable(const BenchmarkPlan& plan, const Origin& origin) {
+  std::string text = "| from | |\n| --- | --- |\n";
+  text += Row("processor", fmt::format("{}", fmt::join(origin.processors, "; ")));
+  text += Row("revision", fmt::format("{}", fmt::join(origin.revisions, ", ")));
+  text += Row("finished", fmt::format("{} of {} jobs", origin.finished, plan.jobs.size()));
+  text += Row("date (UTC)", fmt::format("{}", fmt::join(origin.dates, ", ")));
+  for (const auto& [name, hash] : plan.hashes) {
+    text += Row(fmt::format("SHA-256, {}", name), fmt::format("`{}`", hash));
+  }
+  for (const auto& [title, hash] : origin.settings) {
+    text += Row(fmt::format("SHA-256, settings of {}, seed 0", title), fmt::format("`{}`", hash));
+  }
+  text += "\n";
+  return text;
+}
+
+// Under its section's heading; files go to `folder`, which the document names `link`.
+std::string Figures(const std::vector<BenchmarkPicture>& pictures, const std::string& prefix,
+                    const fs::path& folder, const std::string& link) {
+  std::string text, section;
+  for (const BenchmarkPicture& picture : pictures) {
+    if (picture.section != section) text += fmt::format("### {}\n\n", picture.section);
+    section = picture.section;
+    const std::string name = fmt::format("{}_{}", prefix, picture.file_name);
+    if (picture.svg_file.size() > kMaxFigureBytes) {
+      text += fmt::format("{}: left out, larger than {} kB.\n\n", picture.title,
+                          kMaxFigureBytes / 1000);
+      continue;
+    }
+    WriteTextAtomically(folder / name, picture.svg_file);
+    text += fmt::format("![{}]({}/{})\n\n", picture.title, link, name);
+    text +=
+        fmt::format("{}{}{}\n\n", picture.title, picture.note.empty() ? "" : ": ", picture.note);
+  }
+  return text;
+}
+
+BenchmarkOutcome OutcomeOf(const BenchmarkPlan& plan, const fs::path& folder,
+                           const fs::path& publications) {
+  if (plan.suite == "matching") return MatchingOutcome(plan, folder);
+  return RunsOutcome(plan, ReadBenchmarkRuns(plan, folder), publications);
+}
+
+void RemoveFigures(const fs::path& folder) {
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".svg") old.push_back(entry.path());
+  }
+  for (const fs::path& path : old) fs::remove(path);
+}
+
+// The suite's; of a second benchmark of a suite with its folder, and a number if need be.
+std::string ChapterName(const std::string& suite, const fs::path& folder,
+                        std::set<std::string>& taken) {
+  std::string name = suite;
+  if (taken.contains(name)) {
+    name = fmt::format("{}_{}", suite, fs::canonical(folder).filename().string());
+  }
+  for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", suite, i);
+  return name;
+}
+
+}  // namespace
+
+void WriteBenchmarkDocument(const std::vector<fs::path>& folders, const fs::path& publications,
+                            const fs::path& file) {
+  const fs::path figures = fs::path(file).replace_extension();
+  std::string text =
+      "# Results\n\nWritten by `lift_slam benchmark results` from stored results; not to be "
+      "edited. "
+      "[benchmark.md](benchmark.md) says how they are made and read.\n\n";
+  CreateFolder(figures);
+  RemoveFigures(figures);
+  std::set<std::string> taken;
+  for (const fs::path& folder : folders) {
+    const BenchmarkPlan plan = ReadBenchmarkPlan(folder);
+    const Origin origin = FindOrigin(plan, folder);
+    if (origin.finished == 0) throw InputError(folder.string() + ": has no finished run");
+    const BenchmarkOutcome outcome = OutcomeOf(plan, folder, publications);
+    const std::string name = ChapterName(plan.suite, folder, taken);
+    text += fmt::format("## {}\n\n{}{}{}", name, outcome.tables.markdown, OriginTable(plan, origin),
+                        Figures(outcome.pictures, name, figures, figures.filename().string()));
+  }
+  text.pop_back();  // one line end is enough
+  WriteTextAtomically(file, text);
+}
+
+}  // namespace lift_slam

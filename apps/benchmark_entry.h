@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+
+#include "apps/benchmark_results.h"
+#include "apps/benchmark_table_text.h"
+
+namespace lift_slam {
+
+enum class CellStatistic { kMean, kMedian, kRange };  // kRange: "least to largest", never best
+
+// What a table says of a system on a sequence: a figure, or why there is none, and the marks of
+// runs that failed or kept a part of the frames (BenchmarkTables). `cell` may be null.
+TableEntry MakeEntry(const BenchmarkCell* cell, bool is_skipped, std::size_t figure,
+                     CellStatistic statistic);
+
+// Every column's least contender among our rows becomes bold.
+void MarkBest(ResultTable& table);
+
+}  // namespace lift_slam
