@@ -28,6 +28,7 @@ struct BenchmarkArguments {
   std::vector<std::string> words;  // SUITE, "plan SUITE", "run-job K", "merge" or "results"
   BenchmarkRequest request;
   fs::path output, publications = LIFT_SLAM_PUBLICATIONS;
+  fs::path feature_cache;             // empty: none
   std::vector<std::string> external;  // NAME=FOLDER
   std::vector<fs::path> from;         // folders of benchmarks, for "results"
   int jobs = 1;
@@ -109,7 +110,8 @@ BenchmarkPlan Plan(const BenchmarkArguments& arguments) {
 
 // Throws CLI::RuntimeError when a run broke or a signal came.
 void Run(const std::vector<BenchmarkJob>& jobs, const BenchmarkArguments& arguments) {
-  const BatchResult batch = RunJobs(jobs, arguments.output, arguments.jobs);
+  const BatchResult batch =
+      RunJobs(jobs, arguments.output, arguments.jobs, arguments.feature_cache);
   std::cout << fmt::format("runs        {} done now, {} were done, {} failed\n", batch.finished,
                            batch.were_finished, batch.failed);
   if (batch.stopped) throw CLI::RuntimeError(kStopped);
@@ -173,6 +175,10 @@ void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
                      "Distortions, 'none' for images as they are (default: the suite's)");
   command.add_option("--runs", request.runs, "Of each, with seeds 0, 1, ... (default 5)");
   command.add_option("--jobs", arguments.jobs, "Runs at a time (default 1)");
+  command
+      .add_option("--feature-cache", arguments.feature_cache,
+                  "Folder that keeps LIFT's features: further runs find them there (no times then)")
+      ->type_name("FOLDER");
   command.add_option("--frames", request.frames, "Part of every sequence: FIRST:LAST:STEP");
   command.add_option("--set", request.overrides, "KEY=VALUE for every system")
       ->allow_extra_args(false);

@@ -235,6 +235,25 @@ TEST_F(BenchmarkCommand, VariantsAreComparedOnWhateverIsThere) {
                     {"variants.yaml", "name, title and set"});
 }
 
+TEST_F(BenchmarkCommand, SecondRunFindsFeaturesInTheCacheAndGivesNoTimes) {
+  Render(SequenceLayout::kKittiOdometry, 12);
+  const Outcome outcome = RunProgram(
+      fmt::format("benchmark shared --data {0}/data --output {1} --systems adaptive --runs 2 --set "
+                  "slam.lift.max_features=200 --feature-cache {0}/cache",
+                  folder_.string(), output_.string()));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  int found = 0, made = 0;
+  for (const std::string& name : Finished()) {
+    const std::string log = ReadText(output_ / "results" / name / "log.txt");
+    found += log.find("images found 12, made 0") != std::string::npos ? 1 : 0;
+    made += log.find("images found 0, made 12") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_EQ(found, 1);
+  EXPECT_EQ(made, 1);
+  // Of the run that made them.
+  EXPECT_THAT(ReadText(output_ / "tables.csv"), HasSubstr("\"00\",frame_ms,2,1,"));
+}
+
 TEST_F(BenchmarkCommand, TheShippedAblationChangesOnlySettingsThatExist) {
   Render(SequenceLayout::kKittiOdometry, 4);
   const Outcome outcome =

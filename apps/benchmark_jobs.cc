@@ -38,7 +38,8 @@ std::vector<std::string> MatchingCommandLine(const BenchmarkJob& job, const fs::
   return words;
 }
 
-std::vector<std::string> CommandLine(const BenchmarkJob& job, const fs::path& output) {
+std::vector<std::string> CommandLine(const BenchmarkJob& job, const fs::path& output,
+                                     const fs::path& feature_cache) {
   if (job.pairs > 0) return MatchingCommandLine(job, output);
   std::vector<std::string> words = {"lift_slam",         "run",           job.source.string(),
                                     "--output",          output.string(), "--config",
@@ -49,6 +50,7 @@ std::vector<std::string> CommandLine(const BenchmarkJob& job, const fs::path& ou
   add("--weights", job.weights.string());
   add("--distort", job.distortion);
   add("--frames", job.frames);
+  add("--feature-cache", feature_cache.string());
   for (const std::string& setting : job.overrides) add("--set", setting);
   return words;
 }
@@ -125,14 +127,16 @@ void MoveFolder(const fs::path& from, const fs::path& to) {
   }
 }
 
-JobOutcome RunJob(const BenchmarkJob& job, const fs::path& folder, const StopSignal& stop) {
+JobOutcome RunJob(const BenchmarkJob& job, const fs::path& folder, const fs::path& feature_cache,
+                  const StopSignal& stop) {
   if (IsFinished(folder, job)) return JobOutcome::kWasFinished;
   if (stop.Requested()) return JobOutcome::kStopped;
   const fs::path running = folder / "running" / (job.hash + OwnMark());
   std::error_code error;
   fs::remove_all(running, error);
   CreateFolder(running);
-  const auto exit_code = RunChild(CommandLine(job, running), running / "console.txt", stop);
+  const auto exit_code =
+      RunChild(CommandLine(job, running, feature_cache), running / "console.txt", stop);
   if (stop.Requested()) {
     fs::remove_all(running, error);
     return JobOutcome::kStopped;
@@ -166,8 +170,8 @@ bool IsFinished(const fs::path& folder, const BenchmarkJob& job) {
   return fs::is_regular_file(ResultFolder(folder, job) / "result.json", error);
 }
 
-BatchResult RunJobs(const std::vector<BenchmarkJob>& jobs, const fs::path& folder,
-                    int num_parallel) {
+BatchResult RunJobs(const std::vector<BenchmarkJob>& jobs, const fs::path& folder, int num_parallel,
+                    const fs::path& feature_cache) {
   std::vector<BenchmarkJob> open_jobs;
   for (const BenchmarkJob& job : jobs) {
     if (!IsFinished(folder, job)) open_jobs.push_back(job);
@@ -189,7 +193,7 @@ BatchResult RunJobs(const std::vector<BenchmarkJob>& jobs, const fs::path& folde
       progress.state = NameOf(open_jobs[i]);
       bar.Update(progress);
     }
-    const JobOutcome outcome = RunJob(open_jobs[i], folder, stop);
+    const JobOutcome outcome = RunJob(open_jobs[i], folder, feature_cache, stop);
     const std::lock_guard lock(mutex);
     batch.finished += outcome == JobOutcome::kFinished ? 1 : 0;
     batch.were_finished += outcome == JobOutcome::kWasFinished ? 1 : 0;

@@ -80,7 +80,9 @@ Json TimingJson(const RunRecord& run) {
   json["frames_per_s"] = run.wall_time_s > 0.0
                              ? Json(static_cast<double>(run.frames.size()) / run.wall_time_s)
                              : Json(nullptr);
-  json["frame_ms"] = TimesJson(frame_ms);  // extraction and tracking, without mapping
+  json["frames_from_cache"] = run.num_cached_frames;
+  // Extraction and tracking, without mapping; no measure where features were found in a cache.
+  json["frame_ms"] = run.num_cached_frames > 0 ? Json() : TimesJson(frame_ms);
   json["stages"] = Json::object();
   for (const auto& [stage, times] : run.stage_times_ms) json["stages"][stage] = TimesJson(times);
   return json;

@@ -233,9 +233,12 @@ SlamRun RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& option
                }},
               preparer, system);
   observer.Finish();
-  if (cache) LogCache(cache->statistics(), log);
   SlamRun run{system.Finish(), {}};
   RunRecord& record = run.record;
+  if (cache) {
+    LogCache(cache->statistics(), log);
+    record.num_cached_frames = cache->statistics().num_found;
+  }
   record.wall_time_s = timer.ElapsedMs() * 1e-3;
   record.place_recognition_notice = places.notice;
   record.interrupted = stop.Requested();

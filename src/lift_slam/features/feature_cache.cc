@@ -79,6 +79,7 @@ class CachingExtractor : public FeatureExtractor {
   const ScaleLevels& scale_levels() const override { return extractor_->scale_levels(); }
   const DescriptorKind& descriptor_kind() const override { return extractor_->descriptor_kind(); }
   const ThresholdRange& thresholds() const override { return extractor_->thresholds(); }
+  bool has_fine_positions() const override { return extractor_->has_fine_positions(); }
   std::string Notice() const override { return extractor_->Notice(); }
 
  private:

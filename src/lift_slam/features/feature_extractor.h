@@ -46,6 +46,8 @@ class FeatureExtractor {
   virtual const ScaleLevels& scale_levels() const = 0;
   virtual const DescriptorKind& descriptor_kind() const = 0;
   virtual const ThresholdRange& thresholds() const = 0;
+  // Whether positions are found to a small part of a pixel, not on the pixels' grid.
+  virtual bool has_fine_positions() const { return false; }
   // What the user should know, a sentence: such as an option that this machine cannot follow.
   virtual std::string Notice() const { return {}; }
 };

@@ -27,8 +27,11 @@ std::optional<ReferencePatch> CutReferencePatch(const ImagePyramid& image,
 
 struct PatchAlignmentOptions {
   bool enabled = true;
-  double max_shift_px = 2.0;           // from the detected place, in pixels of the patch
-  double max_residual = 0.2;           // RMS of the difference over the patch's contrast (RMS)
+  double max_shift_px = 2.0;  // from the detected place, in pixels of the patch
+  double max_residual = 0.5;  // RMS of the difference over the patch's contrast (RMS)
+  // The same for features that are found to a fraction of a pixel already (LIFT: 0.15 of a blob's
+  // sigma): only a close fit improves on that.
+  double max_residual_of_fine = 0.2;
   double min_contrast = 3.0;           // RMS of the patch, grey levels
   double max_position_sigma_px = 0.2;  // predicted from residual and texture, pixels of the patch
   int max_iterations = 12;
@@ -42,6 +45,8 @@ struct PatchAlignmentOptions {
                   "farthest from the detected place, in pixels of the feature's scale");
     visitor.Field("max_residual", max_residual,
                   "largest difference after alignment, as a share of the contrast");
+    visitor.Field("max_residual_of_fine", max_residual_of_fine,
+                  "the same for features with fine positions of their own (LIFT)");
     visitor.Field("min_contrast", min_contrast, "least RMS contrast of a patch, grey levels");
     visitor.Field("max_position_sigma_px", max_position_sigma_px,
                   "largest standard deviation of the position that the texture allows");

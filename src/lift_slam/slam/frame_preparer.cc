@@ -26,6 +26,9 @@ std::shared_ptr<const ViewModel> MakeView(const Camera& camera, const FeatureExt
       MakeViewModel(camera.pinhole, {bounds.min_x, bounds.max_x, bounds.min_y, bounds.max_y},
                     extractor.scale_levels(), extractor.thresholds());
   view.alignment = alignment;
+  if (extractor.has_fine_positions()) {
+    view.alignment.max_residual = alignment.max_residual_of_fine;
+  }
   view.undistortion = std::make_shared<const UndistortionMap>(camera);
   return std::make_shared<const ViewModel>(std::move(view));
 }

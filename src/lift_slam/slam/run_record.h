@@ -109,6 +109,7 @@ struct RunRecord {
   int loops_closed = 0;
   int maps_merged = 0;
   std::string place_recognition_notice;  // why it was off; empty: it was on
+  int num_cached_frames = 0;             // whose features came from a cache
   double wall_time_s = 0.0;              // whole run without start-up
   // How often each refusal happened, by FrameRefusal.
   std::array<int, static_cast<std::size_t>(FrameRefusal::kCount)> refusals{};

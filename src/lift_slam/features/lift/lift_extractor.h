@@ -25,6 +25,7 @@ class LiftExtractor : public FeatureExtractor {
   const ScaleLevels& scale_levels() const override { return scale_levels_; }
   const DescriptorKind& descriptor_kind() const override { return kind_; }
   const ThresholdRange& thresholds() const override { return thresholds_; }
+  bool has_fine_positions() const override { return true; }
 
   // When the descriptor runs in another precision than asked for.
   std::string Notice() const override;
