@@ -18,7 +18,7 @@ ResultTable MakeTable(const BenchmarkPlan& plan, const BenchmarkCells& cells, st
     }
   }
   for (const std::string& variant : plan.titles) {
-    TableRow row{variant, {}};
+    BenchmarkTableRow row{variant, {}};
     for (const std::string& column : table.columns) {
       const auto cell = cells.find({variant, column});
       row.entries.push_back(make(cell == cells.end() ? nullptr : &cell->second));

@@ -35,11 +35,11 @@ TableEntry MakeEntry(const BenchmarkCell* cell, bool is_skipped, std::size_t fig
 void MarkBest(ResultTable& table) {
   for (std::size_t column = 0; column < table.columns.size(); ++column) {
     std::optional<double> best;
-    for (const TableRow& row : table.ours) {
+    for (const BenchmarkTableRow& row : table.ours) {
       const auto& value = row.entries[column].contender;
       if (value && (!best || *value < *best)) best = value;
     }
-    for (TableRow& row : table.ours) {
+    for (BenchmarkTableRow& row : table.ours) {
       TableEntry& entry = row.entries[column];
       entry.is_bold = best && entry.contender == best;
     }

@@ -60,7 +60,7 @@ ResultTable MakeTable(const BenchmarkPlan& plan, const std::vector<MatchingCell>
                       const std::string& sequence, std::string title, const Value& value) {
   ResultTable table{std::move(title), plan.conditions, {}, {}};
   for (const std::string& features : plan.titles) {
-    TableRow row{features, {}};
+    BenchmarkTableRow row{features, {}};
     for (const std::string& condition : plan.conditions) {
       const MatchingCell* cell = Find(cells, features, sequence, condition);
       row.entries.push_back(cell == nullptr ? TableEntry{"?", {}}
@@ -101,7 +101,7 @@ ResultTable StatisticsTable(const BenchmarkPlan& plan, const std::vector<Matchin
     for (const std::string& features : plan.titles) {
       const MatchingCell* first = Find(cells, features, sequence, shown.front());
       if (first == nullptr) continue;
-      TableRow row{sequence + ", " + features, {}};
+      BenchmarkTableRow row{sequence + ", " + features, {}};
       row.entries.push_back({fmt::format("{}", first->inliers.size()), {}});
       row.entries.push_back({fmt::format("{:.0f}", first->mean_features), {}});
       for (const std::string& condition : shown) {

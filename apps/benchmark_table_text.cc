@@ -30,7 +30,7 @@ std::string MarkdownRow(const std::string& title, const std::vector<TableEntry>&
   return text + " |\n";
 }
 
-std::string HtmlRow(const TableRow& row) {
+std::string HtmlRow(const BenchmarkTableRow& row) {
   std::string text = "<tr><th>" + EscapeXml(row.title) + "</th>";
   for (const TableEntry& entry : row.entries) {
     const std::string cell = EscapeXml(entry.text);
@@ -70,8 +70,8 @@ std::string LatexBegin(std::size_t num_titles, std::size_t num_columns) {
 
 constexpr const char* kLatexEnd = "\\hline\n\\end{tabular}\n\n";
 
-std::vector<TableRow> AllRows(const ResultTable& table) {
-  std::vector<TableRow> rows = table.ours;
+std::vector<BenchmarkTableRow> AllRows(const ResultTable& table) {
+  std::vector<BenchmarkTableRow> rows = table.ours;
   rows.insert(rows.end(), table.others.begin(), table.others.end());
   return rows;
 }
@@ -80,7 +80,7 @@ std::vector<TableRow> AllRows(const ResultTable& table) {
 std::vector<std::string> RowTitles(const std::vector<ResultTable>& tables) {
   std::vector<std::string> titles;
   for (const ResultTable& table : tables) {
-    for (const TableRow& row : AllRows(table)) {
+    for (const BenchmarkTableRow& row : AllRows(table)) {
       const std::string title = row.FullTitle();
       if (std::ranges::find(titles, title) == titles.end()) titles.push_back(title);
     }
@@ -96,11 +96,11 @@ std::string EscapeLatex(const std::string& text) {
 
 ResultTable Transposed(const ResultTable& table) {
   ResultTable result{table.title, {}, {}, {}};
-  const std::vector<TableRow> rows = AllRows(table);
-  for (const TableRow& row : rows) result.columns.push_back(row.FullTitle());
+  const std::vector<BenchmarkTableRow> rows = AllRows(table);
+  for (const BenchmarkTableRow& row : rows) result.columns.push_back(row.FullTitle());
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    TableRow turned{table.columns[i], {}};
-    for (const TableRow& row : rows) turned.entries.push_back(row.entries[i]);
+    BenchmarkTableRow turned{table.columns[i], {}};
+    for (const BenchmarkTableRow& row : rows) turned.entries.push_back(row.entries[i]);
     result.ours.push_back(std::move(turned));
   }
   return result;
@@ -114,7 +114,8 @@ std::string MarkdownTable(const ResultTable& table) {
     rule += " | ---:";
   }
   std::string text = MarkdownRow(table.title, header) + rule + " |\n";
-  for (const TableRow& row : AllRows(table)) text += MarkdownRow(row.FullTitle(), row.entries);
+  for (const BenchmarkTableRow& row : AllRows(table))
+    text += MarkdownRow(row.FullTitle(), row.entries);
   return text + "\n";
 }
 
@@ -125,10 +126,10 @@ std::string HtmlTable(const ResultTable& table) {
     text += "<th class=\"num\">" + EscapeXml(column) + "</th>";
   }
   text += "</tr></thead>\n<tbody>\n";
-  for (const TableRow& row : table.ours) text += HtmlRow(row);
+  for (const BenchmarkTableRow& row : table.ours) text += HtmlRow(row);
   text += "</tbody>\n";
   std::string source;
-  for (const TableRow& row : table.others) {
+  for (const BenchmarkTableRow& row : table.others) {
     if (row.source != source) text += HtmlSourceRow(row.source, table.columns.size(), source);
     source = row.source;
     text += HtmlRow(row);
@@ -140,11 +141,11 @@ std::string HtmlTable(const ResultTable& table) {
 std::string LatexTable(const ResultTable& table) {
   std::string text =
       LatexBegin(1, table.columns.size()) + LatexHeader(EscapeLatex(table.title), table.columns);
-  for (const TableRow& row : table.ours) {
+  for (const BenchmarkTableRow& row : table.ours) {
     text += EscapeLatex(row.FullTitle()) + LatexCells(row.entries) + " \\\\\n";
   }
   if (!table.others.empty()) text += "\\hline\n";
-  for (const TableRow& row : table.others) {
+  for (const BenchmarkTableRow& row : table.others) {
     text += EscapeLatex(row.FullTitle()) + LatexCells(row.entries) + " \\\\\n";
   }
   return text + kLatexEnd;
@@ -156,7 +157,7 @@ std::string LatexTableByRow(const std::vector<ResultTable>& tables) {
   for (const std::string& title : RowTitles(tables)) {
     std::string shown = EscapeLatex(title);
     for (const ResultTable& table : tables) {
-      for (const TableRow& row : AllRows(table)) {
+      for (const BenchmarkTableRow& row : AllRows(table)) {
         if (row.FullTitle() != title) continue;
         text += shown + " & " + EscapeLatex(table.title) + LatexCells(row.entries) + " \\\\\n";
         shown.clear();

@@ -13,7 +13,7 @@ struct TableEntry {
   bool is_bold = false;
 };
 
-struct TableRow {
+struct BenchmarkTableRow {
   std::string title;
   std::vector<TableEntry> entries;  // one for each column
   std::string source = {};          // of numbers that others published; empty: ours
@@ -25,7 +25,7 @@ struct TableRow {
 struct ResultTable {
   std::string title;  // of the figure, with its unit
   std::vector<std::string> columns;
-  std::vector<TableRow> ours, others;
+  std::vector<BenchmarkTableRow> ours, others;
 };
 
 // Rows become columns; others' rows stand right of ours.

@@ -14,14 +14,16 @@
 namespace lift_slam {
 namespace {
 
-std::vector<TableRow> OtherRows(const std::filesystem::path& path, const std::string& suite,
-                                const char* figure, const std::vector<std::string>& columns) {
+std::vector<BenchmarkTableRow> OtherRows(const std::filesystem::path& path,
+                                         const std::string& suite, const char* figure,
+                                         const std::vector<std::string>& columns) {
   if (path.empty()) return {};
-  std::vector<TableRow> rows;
+  std::vector<BenchmarkTableRow> rows;
   try {
     for (const YAML::Node& system : YAML::LoadFile(path.string())[suite]) {
       if (!system[figure]) continue;
-      TableRow row{system["name"].as<std::string>(), {}, system["source"].as<std::string>()};
+      BenchmarkTableRow row{
+          system["name"].as<std::string>(), {}, system["source"].as<std::string>()};
       for (const std::string& column : columns) {
         const YAML::Node value = system[figure][column];
         row.entries.push_back({value ? value.as<std::string>() : "-", {}});
@@ -46,7 +48,7 @@ ResultTable MakeTable(const BenchmarkPlan& plan, const BenchmarkCells& cells, st
     }
   }
   for (const std::string& title : plan.titles) {
-    TableRow row{title, {}};
+    BenchmarkTableRow row{title, {}};
     for (const std::string& sequence : plan.sequences) {
       for (const std::string& condition : plan.conditions) {
         const auto cell = cells.find({title, ColumnKey(sequence, condition)});
@@ -136,7 +138,7 @@ ResultTable StatisticsTable(const BenchmarkPlan& plan, const BenchmarkCells& cel
       "Sequence, system", {"runs", "coverage [%]", "ATE mean [m]", "median", "min", "max"}, {}, {}};
   ForEachCell(plan, cells, [&](const auto& title, const auto& column, const BenchmarkCell& cell) {
     const RunStatistics s = cell.Statistics(0);
-    TableRow row{column + ", " + title, {}};
+    BenchmarkTableRow row{column + ", " + title, {}};
     row.entries.push_back({fmt::format("{}/{}", cell.NumGood(), cell.planned), {}});
     row.entries.push_back({fmt::format("{:.1f}", 100.0 * cell.MeanCoverage()), {}});
     for (const double value : {s.mean, s.median, s.min, s.max}) {

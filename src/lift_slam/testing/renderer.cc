@@ -243,7 +243,7 @@ void Renderer::MakeTiles() {
 }
 
 GrayImage Renderer::Render(const TexturedWorld& world, const Rigid3d& cam_from_world,
-                           const RenderOptions& options) const {
+                           const PictureOptions& options) const {
   std::vector<ProjectedQuad> quads;
   for (const TexturedQuad& quad : world.quads) {
     const auto projected = Project(quad, world, cam_from_world);

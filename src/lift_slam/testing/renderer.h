@@ -10,7 +10,7 @@
 
 namespace lift_slam {
 
-struct RenderOptions {
+struct PictureOptions {
   double noise_gray = 1.5;  // standard deviation of the noise of each pixel, grey values
   double exposure = 1.0;    // factor on all grey values before the noise
   std::uint64_t noise_seed = 1;
@@ -24,7 +24,7 @@ class Renderer {
   explicit Renderer(const Camera& camera);
 
   GrayImage Render(const TexturedWorld& world, const Rigid3d& cam_from_world,
-                   const RenderOptions& options) const;
+                   const PictureOptions& options) const;
 
  private:
   // Rays of a block of pixels lie in this box of the plane z = 1.

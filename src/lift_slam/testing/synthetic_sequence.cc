@@ -40,7 +40,7 @@ Rigid3d SyntheticSequence::WorldFromCam(int frame) const {
 }
 
 GrayImage SyntheticSequence::Render(int frame) const {
-  RenderOptions render;
+  PictureOptions render;
   render.noise_gray = options_.noise_gray;
   render.noise_seed = options_.seed * 1000003 + static_cast<std::uint64_t>(frame);
   render.exposure =

@@ -127,7 +127,7 @@ TEST(Renderer, AgreesWithTheProjectionOfTheWorld) {
   world.quads.push_back({{-8, -8, 4}, {16, 0, 0}, {0, 16, 0}, 0, 40.0});
   const Camera camera = SyntheticCamera();
   const Renderer renderer(camera);
-  RenderOptions options;
+  PictureOptions options;
   options.noise_gray = 0.0;
   const Rigid3d cam2(Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY())),
                      {0.3, -0.1, 0.2});
@@ -181,7 +181,7 @@ TEST(Renderer, NearerQuadHidesFartherOne) {
   world.textures.emplace_back(1, std::vector<float>{200.0F});
   world.quads.push_back({{-9, -9, 2}, {9, 0, 0}, {0, 18, 0}, 0, 1.0});  // near, left half
   world.quads.push_back({{-9, -9, 5}, {18, 0, 0}, {0, 18, 0}, 1, 1.0});
-  RenderOptions options;
+  PictureOptions options;
   options.noise_gray = 0.0;
   const GrayImage image = Renderer(SyntheticCamera()).Render(world, Rigid3d(), options);
   EXPECT_EQ(image.row(240)[100], 50);
