@@ -11,12 +11,7 @@ namespace {
 template <class Make>
 ResultTable MakeTable(const BenchmarkPlan& plan, const BenchmarkCells& cells, std::string title,
                       const Make& make) {
-  ResultTable table{std::move(title), {}, {}, {}};
-  for (const std::string& sequence : plan.sequences) {
-    for (const std::string& condition : plan.conditions) {
-      table.columns.push_back(ColumnKey(sequence, condition));
-    }
-  }
+  ResultTable table{std::move(title), ColumnKeys(plan), {}, {}};
   for (const std::string& variant : plan.titles) {
     BenchmarkTableRow row{variant, {}};
     for (const std::string& column : table.columns) {

@@ -161,20 +161,10 @@ BenchmarkTables MatchingTables(const BenchmarkPlan& plan, const std::vector<Matc
   }
   const ResultTable statistics = StatisticsTable(plan, cells);
   const std::vector<std::string> remarks = Remarks(plan);
-  BenchmarkTables texts;
-  texts.csv = Csv(cells);
-  for (const ResultTable& table : tables) {
-    texts.markdown += MarkdownTable(table);
-    texts.latex += LatexTable(table);
-  }
-  texts.markdown += MarkdownTable(statistics);
-  texts.latex += LatexTable(statistics);
-  for (const std::string& remark : remarks) {
-    texts.markdown += remark + "\n\n";
-    texts.latex += "% " + remark + "\n";
-  }
-  texts.html = BenchmarkPage(plan, tables, statistics, pictures, remarks);
-  return texts;
+  std::string latex;
+  for (const ResultTable& table : tables) latex += LatexTable(table);
+  return CompleteTexts({.csv = Csv(cells), .latex = latex}, plan, tables, statistics, remarks,
+                       pictures);
 }
 
 }  // namespace lift_slam

@@ -100,6 +100,16 @@ std::string ColumnKey(const std::string& sequence, const std::string& condition)
   return condition == "none" || condition.empty() ? sequence : sequence + " " + condition;
 }
 
+std::vector<std::string> ColumnKeys(const BenchmarkPlan& plan) {
+  std::vector<std::string> keys;
+  for (const std::string& sequence : plan.sequences) {
+    for (const std::string& condition : plan.conditions) {
+      keys.push_back(ColumnKey(sequence, condition));
+    }
+  }
+  return keys;
+}
+
 BenchmarkCells SortIntoCells(const BenchmarkPlan& plan, const std::vector<BenchmarkRun>& runs) {
   BenchmarkCells cells;
   for (const BenchmarkJob& job : plan.jobs) {

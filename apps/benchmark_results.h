@@ -64,6 +64,8 @@ struct BenchmarkCell {
 
 // A column: sequence and condition as one key, "03 gamma=2".
 std::string ColumnKey(const std::string& sequence, const std::string& condition);
+// Of every sequence and condition of the plan, in its order.
+std::vector<std::string> ColumnKeys(const BenchmarkPlan& plan);
 
 // By title and column. The runs must outlive it.
 using BenchmarkCells = std::map<std::pair<std::string, std::string>, BenchmarkCell>;

@@ -41,12 +41,7 @@ bool IsSkipped(const BenchmarkPlan& plan, const std::string& title, const std::s
 }
 
 ResultTable MakeTable(const BenchmarkPlan& plan, const BenchmarkCells& cells, std::size_t figure) {
-  ResultTable table{kBenchmarkFigures[figure].title, {}, {}, {}};
-  for (const std::string& sequence : plan.sequences) {
-    for (const std::string& condition : plan.conditions) {
-      table.columns.push_back(ColumnKey(sequence, condition));
-    }
-  }
+  ResultTable table{kBenchmarkFigures[figure].title, ColumnKeys(plan), {}, {}};
   for (const std::string& title : plan.titles) {
     BenchmarkTableRow row{title, {}};
     for (const std::string& sequence : plan.sequences) {
@@ -193,6 +188,21 @@ std::string Latex(const BenchmarkPlan& plan, const std::vector<ResultTable>& tab
 
 }  // namespace
 
+BenchmarkTables CompleteTexts(BenchmarkTables texts, const BenchmarkPlan& plan,
+                              const std::vector<ResultTable>& tables, const ResultTable& statistics,
+                              const std::vector<std::string>& remarks,
+                              const std::vector<BenchmarkPicture>& pictures) {
+  for (const ResultTable& table : tables) texts.markdown += MarkdownTable(table);
+  texts.markdown += MarkdownTable(statistics);
+  texts.latex += LatexTable(statistics);
+  for (const std::string& remark : remarks) {
+    texts.markdown += remark + "\n\n";
+    texts.latex += "% " + remark + "\n";
+  }
+  texts.html = BenchmarkPage(plan, tables, statistics, pictures, remarks);
+  return texts;
+}
+
 BenchmarkTables MakeBenchmarkTables(const BenchmarkPlan& plan,
                                     const std::vector<BenchmarkRun>& runs,
                                     const std::filesystem::path& publications,
@@ -201,17 +211,8 @@ BenchmarkTables MakeBenchmarkTables(const BenchmarkPlan& plan,
   const std::vector<ResultTable> tables = MakeTables(plan, runs, cells, publications);
   const ResultTable statistics = StatisticsTable(plan, cells);
   const std::vector<std::string> remarks = Remarks(plan, runs);
-  BenchmarkTables texts;
-  texts.csv = Csv(plan, cells);
-  texts.latex = Latex(plan, tables) + LatexTable(statistics);
-  for (const ResultTable& table : tables) texts.markdown += MarkdownTable(table);
-  texts.markdown += MarkdownTable(statistics);
-  for (const std::string& remark : remarks) {
-    texts.markdown += remark + "\n\n";
-    texts.latex += "% " + remark + "\n";
-  }
-  texts.html = BenchmarkPage(plan, tables, statistics, pictures, remarks);
-  return texts;
+  return CompleteTexts({.csv = Csv(plan, cells), .latex = Latex(plan, tables)}, plan, tables,
+                       statistics, remarks, pictures);
 }
 
 }  // namespace lift_slam

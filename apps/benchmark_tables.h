@@ -7,6 +7,7 @@
 #include "apps/benchmark_figures.h"
 #include "apps/benchmark_plan.h"
 #include "apps/benchmark_results.h"
+#include "apps/benchmark_table_text.h"
 
 namespace lift_slam {
 
@@ -17,8 +18,15 @@ namespace lift_slam {
 // Last all statistics. Marks: X all runs failed, "-" left out on purpose, "?" not run yet, "(p %)"
 // mean coverage of a row with partial runs, "k/n" runs that succeeded.
 struct BenchmarkTables {
-  std::string markdown, csv, latex, html;  // html: a page, with the pictures
+  std::string markdown = {}, csv = {}, latex = {}, html = {};  // html: a page, with the pictures
 };
+
+// `texts` has the CSV and the LaTeX of `tables`; the statistics, the remarks and the other forms
+// are added.
+BenchmarkTables CompleteTexts(BenchmarkTables texts, const BenchmarkPlan& plan,
+                              const std::vector<ResultTable>& tables, const ResultTable& statistics,
+                              const std::vector<std::string>& remarks,
+                              const std::vector<BenchmarkPicture>& pictures);
 
 // `runs`: those of the plan and of systems from outside, whose titles are in plan.titles.
 // `publications`: a file as configs/paper_results.yaml; empty: none. Throws InputError.

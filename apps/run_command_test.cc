@@ -120,6 +120,11 @@ TEST_F(RunCommand, FeatureCacheServesTheSecondRunToTheSameBytes) {
   EXPECT_EQ(first, ReadText(output_ / "trajectory_online.tum"));
 }
 
+TEST_F(RunCommand, FeatureCacheSaysThatOrbDoesNotUseIt) {
+  Run(Render(kKitti, 3), "--feature-cache " + (folder_ / "cache").string());
+  EXPECT_THAT(ReadText(output_ / "log.txt"), HasSubstr("feature cache: not used"));
+}
+
 TEST_F(RunCommand, MissingCalibration) {
   const fs::path sequence = Render(kKitti, 3);
   fs::remove(sequence / "calib.txt");

@@ -112,9 +112,13 @@ std::optional<FeatureSet> FeatureCache::Find(const std::string& key, const Descr
   const std::filesystem::path path = PathOf(key);
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
-  auto features = Parse(MappedFile(path).bytes(), kind);
-  if (features) ++statistics_.num_found;
-  return features;
+  try {
+    auto features = Parse(MappedFile(path).bytes(), kind);
+    if (features) ++statistics_.num_found;
+    return features;
+  } catch (const InputError&) {  // not readable: a run does not end for a copy of what it can make
+    return std::nullopt;
+  }
 }
 
 void FeatureCache::Keep(const std::string& key, const FeatureSet& features) {

@@ -106,6 +106,15 @@ TEST_F(FeatureCacheTest, DamagedFilesAreMadeAnew) {
   EXPECT_EQ(calls_, 3);
 }
 
+TEST_F(FeatureCacheTest, WhatCannotBeReadIsMadeAnew) {
+  Extract(4);
+  const fs::path file = OnlyFile();
+  fs::remove(file);
+  fs::create_symlink("/proc/self/mem", file);  // a file that cannot be mapped
+  EXPECT_EQ(Extract(4).keypoints.size(), 4U);
+  EXPECT_EQ(calls_, 2);
+}
+
 TEST_F(FeatureCacheTest, FeaturesThatCannotBeKeptAreGivenAllTheSame) {
   fs::remove_all(folder_);
   std::ofstream(folder_) << "a file where the folder was";
