@@ -105,7 +105,8 @@ std::vector<ReportRow> KeyNumbers(const FinishedRun& finished) {
   rows.push_back({"Map points", Count(run.points.size()), "", ""});
   rows.push_back({"Speed", fmt::format("{:.1f}", FramesPerSecond(run)), "fps", "whole run"});
   rows.push_back({"Per frame", fmt::format("{:.1f}", FrameTimes(run).median_ms), "ms",
-                  "median, extract and track"});
+                  run.num_cached_frames > 0 ? "median, with features from the cache"
+                                            : "median, extract and track"});
   const double megabytes =
       static_cast<double>(finished.provenance.peak_memory_bytes) / kBytesPerMegabyte;
   rows.push_back({"Peak memory", fmt::format("{:.0f}", megabytes), "MB", ""});

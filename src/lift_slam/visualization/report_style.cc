@@ -21,7 +21,7 @@ h2{font-size:19px;margin:44px 0 14px;padding-top:18px;border-top:1px solid var(-
 .s-ok{background:var(--ok-bg)}.s-ok b{color:var(--ok)}.s-ok b::before{content:"\2713"}
 .s-mid{background:var(--mid-bg)}.s-mid b{color:var(--mid)}.s-mid b::before{content:"!"}
 .s-bad{background:var(--bad-bg)}.s-bad b{color:var(--bad)}.s-bad b::before{content:"\2715"}
-.key{display:grid;grid-template-columns:repeat(auto-fit,minmax(124px,1fr));margin:0;
+.key{display:grid;grid-template-columns:repeat(auto-fit,minmax(150px,1fr));margin:0;
 border:1px solid var(--rule);border-radius:10px;overflow:hidden}
 .key div{padding:12px 16px;box-shadow:1px 0 0 var(--rule),0 1px 0 var(--rule)}
 .key dt{color:var(--soft);font-size:13px}.key dd{margin:0;font-size:23px;line-height:1.3;font-weight:600;font-variant-numeric:tabular-nums;white-space:nowrap}
