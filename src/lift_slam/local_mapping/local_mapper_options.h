@@ -10,7 +10,8 @@ struct LocalMapperOptions {
   double min_parallax_deg = 1.5;     // of a new point
   // Correlation of a new point's patch with others along its epipolar line; above: repetitive.
   double max_self_similarity = 0.85;
-  int min_unique_points = 200;        // of a keyframe; with fewer, repetitive ones are made as well
+  int min_unique_points = 200;  // of a keyframe; with fewer, more repetitive ones are made as well,
+  double max_self_similarity_of_few = 0.95;  // up to this correlation
   double min_baseline_ratio = 0.01;   // baseline over median scene depth of a keyframe pair
   int fusion_neighbors = 10;          // covisible keyframes whose points are fused, and
   int fusion_second_neighbors = 5;    // of each of those as many again
@@ -30,6 +31,8 @@ struct LocalMapperOptions {
                   "correlation of a new point's patch with others along its epipolar line");
     visitor.Field("min_unique_points", min_unique_points,
                   "points of a keyframe below which repetitive ones are made as well");
+    visitor.Field("max_self_similarity_of_few", max_self_similarity_of_few,
+                  "the correlation that these may have");
     visitor.Field("min_baseline_ratio", min_baseline_ratio,
                   "least baseline over median scene depth of a keyframe pair");
     visitor.Field("fusion_neighbors", fusion_neighbors, "covisible keyframes for fusion");

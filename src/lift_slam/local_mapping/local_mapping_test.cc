@@ -70,17 +70,37 @@ TEST_F(LocalMappingTest, PostsOfAFenceAreRepetitiveAndTextureIsNot) {
       Image([](int x, int) { return x % 24 < 8 ? 160.0 : 60.0; }, *scene_.view()));
   const auto texture = std::make_shared<ImagePyramid>(
       Image([&](int, int) { return random.Uniform(0.0, 255.0); }, *scene_.view()));
-  const auto count = [&](std::shared_ptr<const ImagePyramid> pyramid) {
+  const auto count = [&](std::shared_ptr<const ImagePyramid> pyramid, double relaxed = 0.0) {
     KeyFrame keyframe = map_.keyframe(second_);
     keyframe.pyramid = std::move(pyramid);
     RepetitionCheck check(map_, keyframe, 0.9);
+    check.Relax(relaxed);
     int repetitive = 0;
     for (int i = 0; i < kPoints; ++i) repetitive += check.IsRepetitive(i, map_.keyframe(first_));
     return repetitive;
   };
   EXPECT_GT(count(fence), kPoints / 2);  // the others are at the border, or outside
+  EXPECT_EQ(count(fence, 0.95), count(fence));  // its posts are all the same
+  EXPECT_EQ(count(fence, 1.0), 0);
   EXPECT_EQ(count(texture), 0);
   EXPECT_EQ(count(nullptr), 0);
+}
+
+TEST_F(LocalMappingTest, RelaxedRepetitionCheckKeepsWhatItMeasured) {
+  FillHalf();
+  KeyFrame keyframe = map_.keyframe(second_);
+  keyframe.pyramid = std::make_shared<ImagePyramid>(
+      Image([](int x, int) { return x % 24 < 8 ? 160.0 : 60.0; }, *scene_.view()));
+  RepetitionCheck check(map_, keyframe, 0.9);
+  std::vector<int> repetitive;
+  for (int i = 0; i < kPoints; ++i) {
+    if (check.IsRepetitive(i, map_.keyframe(first_))) repetitive.push_back(i);
+  }
+  ASSERT_FALSE(repetitive.empty());
+  check.Relax(1.0);
+  for (const int i : repetitive) EXPECT_FALSE(check.IsRepetitive(i, map_.keyframe(first_)));
+  check.Relax(0.5);  // never stricter again
+  for (const int i : repetitive) EXPECT_FALSE(check.IsRepetitive(i, map_.keyframe(first_)));
 }
 
 TEST_F(LocalMappingTest, RecentPointsRarelyFoundAreCulled) {

@@ -158,8 +158,9 @@ std::vector<MapPointId> CreatePoints(KeyFrameId keyframe_id, const LocalMapperOp
   for (const auto& neighbor : neighbors) {
     CreateFromPair(keyframe_id, neighbor.keyframe, creation, map);
   }
-  // Little else to see: points that may be wrong are better than to be lost.
-  creation.repetition.AllowAll();
+  // Little else to see: points that may be wrong are better than to be lost. But not what looks the
+  // same all along the line, such as a crash barrier.
+  creation.repetition.Relax(options.max_self_similarity_of_few);
   for (const auto& neighbor : neighbors) {
     if (CountPoints(keyframe) >= options.min_unique_points) break;
     CreateFromPair(keyframe_id, neighbor.keyframe, creation, map);

@@ -1,21 +1,27 @@
 #include "lift_slam/local_mapping/repetition_check.h"
 
+#include <algorithm>
+
 namespace lift_slam {
 
 RepetitionCheck::RepetitionCheck(const Map& map, const KeyFrame& keyframe, double max_similarity)
     : map_(map),
       keyframe_(keyframe),
       max_similarity_(max_similarity),
-      answers_(static_cast<std::size_t>(keyframe.features->size()), Answer::kUnknown) {}
+      similarities_(static_cast<std::size_t>(keyframe.features->size())) {}
 
 bool RepetitionCheck::IsRepetitive(int feature, const KeyFrame& other) {
   if (!keyframe_.pyramid || max_similarity_ >= 1.0) return false;
-  Answer& answer = answers_[static_cast<std::size_t>(feature)];
-  if (answer == Answer::kUnknown) answer = Measure(feature, other) ? Answer::kYes : Answer::kNo;
-  return answer == Answer::kYes;
+  std::optional<double>& similarity = similarities_[static_cast<std::size_t>(feature)];
+  if (!similarity) similarity = Measure(feature, other);
+  return *similarity > max_similarity_;
 }
 
-bool RepetitionCheck::Measure(int feature, const KeyFrame& other) const {
+void RepetitionCheck::Relax(double max_similarity) {
+  max_similarity_ = std::max(max_similarity_, max_similarity);
+}
+
+double RepetitionCheck::Measure(int feature, const KeyFrame& other) const {
   const PinholeIntrinsics& pinhole = map_.view().pinhole;
   const FrameFeatures& features = *keyframe_.features;
   // Towards the image of the other camera's centre; taken as straight where the lens bends it.
@@ -26,7 +32,7 @@ bool RepetitionCheck::Measure(int feature, const KeyFrame& other) const {
   const Keypoint& keypoint = features.keypoint(feature);
   const double scale = map_.view().scale[static_cast<std::size_t>(features.level(feature))];
   return SelfSimilarityAlong(*keyframe_.pyramid, Eigen::Vector2d(keypoint.x, keypoint.y), direction,
-                             scale) > max_similarity_;
+                             scale);
 }
 
 }  // namespace lift_slam

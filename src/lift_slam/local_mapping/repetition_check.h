@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lift_slam/image/self_similarity.h"
@@ -21,17 +22,16 @@ class RepetitionCheck {
   // for the same feature it gives the first answer: the neighbours of a keyframe lie in about the
   // same direction, or see it from the same side.
   bool IsRepetitive(int feature, const KeyFrame& other);
-  // From now on nothing is repetitive.
-  void AllowAll() { max_similarity_ = 1.0; }
+  // From now on only what is more alike than this.
+  void Relax(double max_similarity);
 
  private:
-  bool Measure(int feature, const KeyFrame& other) const;
+  double Measure(int feature, const KeyFrame& other) const;
 
   const Map& map_;
   const KeyFrame& keyframe_;
   double max_similarity_;
-  enum class Answer : char { kUnknown, kNo, kYes };
-  std::vector<Answer> answers_;  // by feature
+  std::vector<std::optional<double>> similarities_;  // by feature, measured so far
 };
 
 }  // namespace lift_slam
