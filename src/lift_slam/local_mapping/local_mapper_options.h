@@ -12,15 +12,15 @@ struct LocalMapperOptions {
   double max_self_similarity = 0.85;
   int min_unique_points = 200;  // of a keyframe; with fewer, more repetitive ones are made as well,
   double max_self_similarity_of_few = 0.95;  // up to this correlation
-  double min_baseline_ratio = 0.01;   // baseline over median scene depth of a keyframe pair
-  int fusion_neighbors = 10;          // covisible keyframes whose points are fused, and
-  int fusion_second_neighbors = 5;    // of each of those as many again
-  double fusion_radius_px = 3.0;      // on level 0
-  int bundle_free_keyframes = 20;     // poses optimised, the new keyframe included
-  int bundle_fixed_keyframes = 20;    // further observers, held fixed
-  int bundle_min_shared_points = 15;  // of a covisible keyframe to take part
-  double redundant_share = 0.9;       // of a keyframe's points seen by three others: culled
-  double min_found_ratio = 0.25;      // of a new point's sightings over expected ones
+  double min_baseline_ratio = 0.01;          // baseline over median scene depth of a keyframe pair
+  int fusion_neighbors = 10;                 // covisible keyframes whose points are fused, and
+  int fusion_second_neighbors = 5;           // of each of those as many again
+  double fusion_radius_px = 3.0;             // on level 0
+  int bundle_free_keyframes = 20;            // poses optimised, the new keyframe included
+  int bundle_fixed_keyframes = 20;           // further observers, held fixed
+  int bundle_min_shared_points = 15;         // of a covisible keyframe to take part
+  double redundant_share = 0.9;              // of a keyframe's points seen by three others: culled
+  double min_found_ratio = 0.25;             // of a new point's sightings over expected ones
   EpipolarMatchOptions epipolar;
 
   void Visit(OptionVisitor& visitor) {

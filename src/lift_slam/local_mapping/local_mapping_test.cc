@@ -79,7 +79,7 @@ TEST_F(LocalMappingTest, PostsOfAFenceAreRepetitiveAndTextureIsNot) {
     for (int i = 0; i < kPoints; ++i) repetitive += check.IsRepetitive(i, map_.keyframe(first_));
     return repetitive;
   };
-  EXPECT_GT(count(fence), kPoints / 2);  // the others are at the border, or outside
+  EXPECT_GT(count(fence), kPoints / 2);         // the others are at the border, or outside
   EXPECT_EQ(count(fence, 0.95), count(fence));  // its posts are all the same
   EXPECT_EQ(count(fence, 1.0), 0);
   EXPECT_EQ(count(texture), 0);
