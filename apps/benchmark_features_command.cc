@@ -21,7 +21,7 @@ namespace {
 struct Arguments {
   std::vector<std::filesystem::path> weights;  // none: those that ship
   std::filesystem::path data, patches, output;
-  std::vector<std::string> precisions{"bfloat16"};
+  std::vector<std::string> precisions{"auto"};
   std::vector<std::string> tables{"descriptors", "matching", "repeatability", "orientation",
                                   "homography"};
   std::vector<std::vector<std::filesystem::path>> extra;  // two images each
@@ -147,8 +147,8 @@ void AddOptions(CLI::App& command, Arguments& arguments) {
   command.add_option("--tables", arguments.tables, "Which tables")
       ->check(CLI::IsMember(
           {"descriptors", "matching", "repeatability", "orientation", "homography", "keypoints"}));
-  command.add_option("--precisions", arguments.precisions, "float32, bfloat16, int8")
-      ->check(CLI::IsMember({"float32", "bfloat16", "int8"}));
+  command.add_option("--precisions", arguments.precisions, "auto, float32, bfloat16, int8")
+      ->check(CLI::IsMember({"auto", "float32", "bfloat16", "int8"}));
   command.add_option("--patches", arguments.patches,
                      "64 x 64 uint8 patches, for a table of the precisions' differences");
   command.add_option("--max-features", arguments.quality.max_features, "Features an image")

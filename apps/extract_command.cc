@@ -152,7 +152,7 @@ void AddExtractCommand(CLI::App& app) {
                    "First level searched; 5 leaves the up-sampled octave out")
       ->capture_default_str();
   command->add_option("--precision", arguments->precision, "Arithmetic of the networks")
-      ->check(CLI::IsMember({"float32", "bfloat16", "int8"}))
+      ->check(CLI::IsMember({"auto", "float32", "bfloat16", "int8"}))
       ->capture_default_str();
   command->add_option("--threads", options.num_threads, "Threads")->capture_default_str();
   AddPatchOptions(*command, arguments->patches);

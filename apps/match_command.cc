@@ -181,7 +181,7 @@ void AddFeatureOptions(CLI::App& command, MatchArguments& arguments) {
   command.add_option("--max-features", lift.max_features, "Features an image")
       ->capture_default_str();
   command.add_option("--precision", arguments.precision, "Arithmetic of LIFT's networks")
-      ->check(CLI::IsMember({"float32", "bfloat16", "int8"}))
+      ->check(CLI::IsMember({"auto", "float32", "bfloat16", "int8"}))
       ->capture_default_str();
   command.add_option("--threads", lift.num_threads, "Threads")->capture_default_str();
 }

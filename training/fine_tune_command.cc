@@ -14,6 +14,7 @@
 #include "lift_slam/util/option_root.h"
 #include "training/colmap_run.h"
 #include "training/train_command.h"
+#include "training/weights_calibration.h"
 
 namespace lift_slam::training {
 namespace {
@@ -85,6 +86,41 @@ std::vector<std::string> Stages(const std::string& modules) {
   return {modules};
 }
 
+// Trains the stages one after the other. The weights they came to; nothing when a stage was ended
+// before it had any. `is_complete` tells whether all steps were made.
+fs::path TrainStages(const FineTuneArguments& arguments, TrainingOptions options,
+                     bool& is_complete) {
+  fs::path reached;
+  for (const std::string& stage : Stages(arguments.modules)) {
+    options.stage = stage;
+    const fs::path folder = arguments.output / stage;
+    const bool resume = fs::exists(folder / "checkpoint.pt");
+    is_complete = RunTraining(options, folder, resume, arguments.minutes);
+    const fs::path best = folder / "best.safetensors";
+    if (fs::exists(best)) reached = best;
+    if (!is_complete) break;
+    options.from = best.string();
+  }
+  return reached;
+}
+
+// What the SLAM uses of the weights beside the networks: thresholds and ranges for int8.
+void Calibrate(const LiftWeights& from, const FineTuneArguments& arguments,
+               const TrainingOptions& options, LiftWeights& weights) {
+  constexpr int kBatches = 64;
+  if (arguments.modules == "orientation" || arguments.modules == "detector") {
+    weights.distances = from.distances;
+    weights.descriptor_ranges = from.descriptor_ranges;
+    return;
+  }
+  const bool held_out = !arguments.validation.empty();
+  std::cout << fmt::format("Distances of descriptors measured on {}\n",
+                           held_out ? "the validation sets"
+                                    : "the training sets (no --validation given)");
+  CarryOverCalibration(from, OpenTrainingSets(held_out ? options.validation : options.data),
+                       kBatches, weights);
+}
+
 void FineTune(FineTuneArguments& arguments) {
   if (!arguments.preset.empty()) PreparePreset(arguments);
   if (arguments.data.empty()) {
@@ -95,21 +131,18 @@ void FineTune(FineTuneArguments& arguments) {
   options.data = fmt::format("{}", fmt::join(arguments.data, " "));
   options.validation = fmt::format("{}", fmt::join(arguments.validation, " "));
   options.from = arguments.from;
-  for (const std::string& stage : Stages(arguments.modules)) {
-    options.stage = stage;
-    const fs::path folder = arguments.output / stage;
-    const bool resume = fs::exists(folder / "checkpoint.pt");
-    if (!RunTraining(options, folder, resume, arguments.minutes)) {
-      std::cerr << "Ended early; the same command goes on.\n";
-      return;
-    }
-    options.from = (folder / "best.safetensors").string();
-  }
-  LiftWeights weights = ReadLiftWeights(options.from);
-  weights.name = "fine-tuned (" + arguments.modules + ")";
-  WriteLiftWeights(weights, arguments.output / "weights.safetensors");
-  std::cout << fmt::format("{}: SHA-256 {}\n", (arguments.output / "weights.safetensors").string(),
-                           weights.sha256);
+  const LiftWeights from = ReadLiftWeights(arguments.from);
+  bool is_complete = false;
+  const fs::path reached = TrainStages(arguments, options, is_complete);
+  if (!is_complete) std::cerr << "Ended early; the same command goes on.\n";
+  if (reached.empty()) return;
+  LiftWeights weights = ReadLiftWeights(reached);
+  weights.name = fmt::format("fine-tuned ({}{})", arguments.modules,
+                             is_complete ? "" : ", not to the end");
+  Calibrate(from, arguments, options, weights);
+  const fs::path file = arguments.output / "weights.safetensors";
+  WriteLiftWeights(weights, file);
+  std::cout << fmt::format("{}: SHA-256 {}\n", file.string(), weights.sha256);
 }
 
 }  // namespace

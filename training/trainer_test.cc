@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/input_error.h"
+#include "training/fine_tune_command.h"
 #include "training/photograph_import.h"
+#include "training/weights_calibration.h"
 
 namespace lift_slam::training {
 namespace {
@@ -130,6 +133,59 @@ TEST(Trainer, LearnsToTellPointsApart) {
     return true;
   });
   EXPECT_LT(last, first - 0.02);
+}
+
+void ScaleLastLayer(LiftWeights& weights, float factor) {
+  for (const LiftParameter& parameter : Parameters(weights)) {
+    if (!parameter.name.starts_with("descriptor.conv3.")) continue;
+    for (float& value : parameter.values) value *= factor;
+  }
+}
+
+TEST(CarryOverCalibration, BringsDistancesBackToWhatTheyWere) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  TrainOn(TinyRun(folder, "descriptor", 1), folder / "run", false);
+  LiftWeights from = ReadLiftWeights(folder / "run/latest.safetensors");
+  from.distances = DistanceQuantiles{{1, 2, 3, 4, 5}, {6, 7, 8, 9, 10}};
+  LiftWeights weights = from;
+  weights.distances.reset();
+  ScaleLastLayer(weights, 3.0F);
+  CarryOverCalibration(from, OpenTrainingSets((folder / "set").string()), 2, weights);
+  ASSERT_TRUE(weights.distances);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(weights.distances->matching[i], from.distances->matching[i], 1e-3);
+    EXPECT_NEAR(weights.distances->nearest_wrong[i], from.distances->nearest_wrong[i], 1e-3);
+  }
+  EXPECT_EQ(weights.descriptor_ranges.size(), 3U);
+  auto expected = Parameters(from), got = Parameters(weights);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(expected[i].values[0], got[i].values[0], 1e-4) << expected[i].name;
+  }
+}
+
+void FineTune(const TemporaryFolder& folder, const std::string& more) {
+  CLI::App app;
+  AddFineTuneCommand(app);
+  const std::string set = (folder / "set").string();
+  app.parse("fine-tune --from " + (folder / "from.safetensors").string() + " --data " + set +
+            " --validation " + set + " --output " + (folder / "tuned").string() + " " + more);
+}
+
+TEST(FineTune, AlsoLeavesWeightsWhenItEndsEarly) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  TrainOn(TinyRun(folder, "descriptor", 1), folder / "run", false);
+  LiftWeights from = ReadLiftWeights(folder / "run/latest.safetensors");
+  from.distances = DistanceQuantiles{{1, 2, 3, 4, 5}, {6, 7, 8, 9, 10}};
+  from.descriptor_ranges = {1, 2, 3};
+  WriteLiftWeights(from, folder / "from.safetensors");
+  FineTune(folder, "--minutes 0.0001 --set run.threads=1 --set run.validation_batches=1 "
+                   "--set orientation.schedule.batch=6");
+  const LiftWeights tuned = ReadLiftWeights(folder / "tuned/weights.safetensors");
+  EXPECT_EQ(tuned.name, "fine-tuned (orientation, not to the end)");
+  EXPECT_EQ(tuned.distances, from.distances);
+  EXPECT_EQ(tuned.descriptor_ranges, from.descriptor_ranges);
 }
 
 TEST(Trainer, RefusesWhatCannotBe) {

@@ -8,13 +8,10 @@
 #include <iostream>
 #include <memory>
 
-#include "lift_slam/features/lift/lift_networks.h"
 #include "lift_slam/nn/half_float.h"
 #include "lift_slam/util/input_error.h"
-#include "training/distance_statistics.h"
-#include "training/lift_modules.h"
-#include "training/losses.h"
-#include "training/training_stage.h"
+#include "training/patch_sampler.h"
+#include "training/weights_calibration.h"
 
 namespace lift_slam::training {
 namespace {
@@ -69,49 +66,6 @@ void Assemble(const AssembleArguments& arguments) {
   std::cout << fmt::format("{}: SHA-256 {}\n", arguments.output.string(), weights.sha256);
 }
 
-// Distances between patches as the sets have them, without noise or changes of light; those of
-// points with one view are slanted and relit a little, else they would be equal.
-DistanceQuantiles MeasureDistances(LiftWeights& weights, const std::vector<WeightedSet>& sets,
-                                   int batches) {
-  const ViewOptions views{.max_tilt = 1.4,
-                          .max_perspective = 0.01,
-                          .position_noise_sigmas = 0.1,
-                          .scale_noise_octaves = 0.05,
-                          .rotation_noise_deg = 2.0,
-                          .turned_share = 0.0};
-  const PhotometryOptions light{.max_gamma = 1.1,
-                                .gamma_share = 0.0,
-                                .max_gain = 1.1,
-                                .max_offset = 5.0,
-                                .max_noise = 2.0,
-                                .blurred_share = 0.0};
-  constexpr std::uint64_t kSeed = 70001;
-  const PatchSampler sampler(sets, {}, views, light, kSeed);
-  DescriptorModule descriptor;
-  LoadParameters(weights, "descriptor", descriptor);
-  const torch::NoGradGuard no_gradients;
-  DistanceStatistics statistics;
-  for (int i = 0; i < batches; ++i) {
-    const PatchBatch batch = sampler.Draw(static_cast<std::uint64_t>(i));
-    const auto first = descriptor.forward(PatchTensor(batch.first, batch.count, batch.size));
-    const auto second = descriptor.forward(PatchTensor(batch.second, batch.count, batch.size));
-    statistics.Add(AllDistances(first, second), DifferenceTensor(batch));
-  }
-  return statistics.Quantiles();
-}
-
-// Makes all distances `factor` times as large: after the last convolution come only a ReLU and
-// means, and one factor for all of them tells points apart as before.
-void ScaleDescriptors(LiftWeights& weights, double factor) {
-  for (const LiftParameter& parameter : Parameters(weights)) {
-    if (!parameter.name.starts_with("descriptor.conv3.")) continue;
-    for (float& value : parameter.values) value *= static_cast<float>(factor);
-  }
-  for (auto* quantiles : {&weights.distances->matching, &weights.distances->nearest_wrong}) {
-    for (float& distance : *quantiles) distance *= static_cast<float>(factor);
-  }
-}
-
 void Calibrate(const CalibrateArguments& arguments) {
   LiftWeights weights = ReadLiftWeights(arguments.weights);
   CheckInput(arguments.weights, weights.descriptor_input);
@@ -120,13 +74,7 @@ void Calibrate(const CalibrateArguments& arguments) {
         fmt::format("{}: only topology F can be measured here", arguments.weights.string()));
   }
   const auto sets = OpenTrainingSets(fmt::format("{}", fmt::join(arguments.data, " ")));
-  weights.distances = MeasureDistances(weights, sets, arguments.batches);
-  if (arguments.nearest_wrong > 0.0) {
-    ScaleDescriptors(weights, arguments.nearest_wrong / weights.distances->nearest_wrong[2]);
-  }
-  constexpr int kRangePatches = 256;
-  const PatchBatch batch = PatchSampler(sets, {.count = kRangePatches}, {}, {}, 1).Draw(0);
-  weights.descriptor_ranges = MeasureDescriptorRanges(weights, batch.first);
+  CalibrateDescriptor(sets, arguments.batches, arguments.nearest_wrong, weights);
   WriteLiftWeights(weights, arguments.output.empty() ? arguments.weights : arguments.output);
   std::cout << fmt::format(
       "matching      {:.3f} (5, 25, 50, 75, 95 % of distances)\n"

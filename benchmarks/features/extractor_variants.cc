@@ -13,9 +13,10 @@ std::vector<Variant> Variants(std::span<const NamedWeights> all, const QualityOp
   for (const auto& [name, weights] : all) {
     for (const bool upright : {true, false}) {
       if (!upright && !weights.orientation) continue;
-      for (const nn::Precision precision : options.precisions) {
-        const LiftNetworks networks(weights, {.precision = precision});
-        if (networks.precision().used != precision) continue;  // the CPU or the file cannot
+      for (const nn::Precision wanted : options.precisions) {
+        const nn::Precision precision = LiftNetworks(weights, {.precision = wanted}).precision().used;
+        const bool is_possible = wanted == nn::Precision::kAuto || precision == wanted;
+        if (!is_possible) continue;  // the CPU or the file cannot
         variants.push_back(
             {&weights, precision, upright,
              fmt::format("{} {}{}", name, upright ? "upright " : "", nn::Name(precision))});

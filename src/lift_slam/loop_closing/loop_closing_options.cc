@@ -13,6 +13,8 @@ void PlaceVerificationOptions::Visit(OptionVisitor& visitor) {
   visitor.Field(
       "min_found_ratio", min_found_ratio,
       "share of the place's points that are seen, over that of the points around the query");
+  visitor.Field("min_part_points", min_part_points,
+                "points expected in a part of the view for its share to count");
   visitor.Field("confirming_keyframes", confirming_keyframes,
                 "covisible keyframes of the query that are asked whether they see the place");
   visitor.Field("min_confirming", min_confirming, "of these that must see it");

@@ -24,6 +24,7 @@ struct PlaceVerificationOptions {
   // points around the query. At the place itself it is 0.9 to 1.2 (rendered drives); 10 m before it
   // 0.6, but so it is where the same walls and boards stand elsewhere.
   double min_found_ratio = 0.7;
+  int min_part_points = 20;  // expected in a part of the view for its share to mean something
   int confirming_keyframes = 5;       // covisible keyframes of the query that should see the place
   int min_confirming = 2;             // of these
   int min_confirming_points = 20;     // that each must see

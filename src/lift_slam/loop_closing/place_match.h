@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lift_slam/geometry/sim3.h"
+#include "lift_slam/loop_closing/place_sighting.h"
 #include "lift_slam/map/ids.h"
 
 namespace lift_slam {
@@ -35,6 +36,8 @@ struct PlaceMatch {
   int num_projected = 0;         // features of the query that show a point of the place
   double found_ratio = 0.0;      // these over the place's points that the query should see
   double own_found_ratio = 0.0;  // the same for the points around the query itself
+  SightingParts parts{}, own_parts{};      // both by parts of the view
+  std::optional<double> least_part_ratio;  // see LeastPartRatio
   // Distance between both cameras over the median depth of the candidate's points.
   double offset_ratio = 0.0;
   int num_confirming = 0;  // covisible keyframes of the query that see the place too

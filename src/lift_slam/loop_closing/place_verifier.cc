@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "lift_slam/geometry/absolute_pose.h"
+#include "lift_slam/loop_closing/place_sighting.h"
 #include "lift_slam/loop_closing/word_matching.h"
-#include "lift_slam/matching/frame_matcher.h"
 #include "lift_slam/optimization/pose_graph.h"
 #include "lift_slam/optimization/sim3_optimization.h"
 #include "lift_slam/util/median.h"
@@ -31,6 +31,7 @@ class Verifier {
       : query_(query),
         candidate_(candidate),
         options_(options),
+        sighting_options_{options.search_radius_factor, options.max_squared_error},
         keyframe_(query.map.keyframe(query.keyframe)),
         candidate_from_world_(candidate.map.keyframe(candidate.keyframe).cam_from_world),
         window_(WithNeighbors(candidate.map, candidate.keyframe, kWindowMinShared,
@@ -46,15 +47,6 @@ class Verifier {
   }
 
  private:
-  // What a keyframe sees of some points.
-  struct Sighting {
-    std::vector<MapPointId> points;  // by feature
-    int num_found = 0, num_visible = 0;
-    double FoundRatio() const {
-      return num_visible > 0 ? static_cast<double>(num_found) / num_visible : 0.0;
-    }
-  };
-
   // A match of a feature of the query with both map points, ready for the solvers.
   struct Correspondence {
     std::size_t feature = 0;
@@ -185,53 +177,30 @@ class Verifier {
     match.query_from_candidate_world = query_from_candidate * AsSimilarity(candidate_from_world_);
   }
 
-  // Looks for the place's points around a camera of the query's map that a similarity puts there.
+  // Looks for the place's points in a keyframe of the query's map that a similarity puts there.
   Sighting FindPlacePoints(const KeyFrame& keyframe, const Sim3d& cam_from_candidate_world) const {
     return FindPoints(candidate_.map, place_points_, keyframe,
-                      CorrectedPose(cam_from_candidate_world));
-  }
-
-  Sighting FindPoints(const Map& map, const std::vector<MapPointId>& points,
-                      const KeyFrame& keyframe, const Rigid3d& cam_from_world) const {
-    Frame frame(keyframe.frame_index, keyframe.timestamp_ns, keyframe.features);
-    frame.cam_from_world = cam_from_world;
-    const LocalMatchResult matched =
-        MatchLocalPoints(map, points, static_cast<float>(options_.search_radius_factor),
-                         map.view().thresholds.loose.low, frame);
-    for (std::size_t i = 0; i < frame.map_points.size(); ++i) {
-      const MapPoint* point = map.FindPoint(frame.map_points[i]);
-      if (point != nullptr && !Agrees(map.view(), *point, frame, static_cast<int>(i))) {
-        frame.map_points[i] = MapPointId();
-      }
-    }
-    return {frame.map_points, frame.CountMatches(), static_cast<int>(matched.visible.size())};
-  }
-
-  bool Agrees(const ViewModel& view, const MapPoint& point, const Frame& frame, int feature) const {
-    const Eigen::Vector3d in_cam = frame.cam_from_world * point.position;
-    if (!(in_cam.z() > 0.0)) return false;
-    const double squared_error =
-        (view.pinhole.Project(in_cam) - frame.features->pixel(feature)).squaredNorm();
-    return squared_error * view.InverseVariance(frame.features->level(feature), false) <=
-           options_.max_squared_error;
+                      CorrectedPose(cam_from_candidate_world), sighting_options_);
   }
 
   void FindGuided(PlaceMatch& match) const {
     Sighting sighting = FindPlacePoints(keyframe_, match.query_from_candidate_world);
     match.points = std::move(sighting.points);
-    match.num_projected = sighting.num_found;
-    match.found_ratio = sighting.FoundRatio();
+    match.num_projected = sighting.all.num_found;
+    match.found_ratio = sighting.all.FoundRatio();
+    match.parts = sighting.parts;
   }
 
   // How well the query sees the points around itself.
-  double OwnFoundRatio() const {
+  void CompareWithOwn(PlaceMatch& match) const {
     std::vector<KeyFrameId> around =
         WithNeighbors(query_.map, query_.keyframe, kWindowMinShared, options_.window_keyframes);
     around.erase(around.begin());  // itself
-    if (around.empty()) return 1.0;
-    return FindPoints(query_.map, query_.map.PointsSeenBy(around), keyframe_,
-                      keyframe_.cam_from_world)
-        .FoundRatio();
+    const Sighting own = FindPoints(query_.map, query_.map.PointsSeenBy(around), keyframe_,
+                                    keyframe_.cam_from_world, sighting_options_);
+    match.own_found_ratio = around.empty() ? 1.0 : own.all.FoundRatio();
+    match.own_parts = own.parts;
+    match.least_part_ratio = LeastPartRatio(match.parts, own.parts, options_.min_part_points);
   }
 
   int Optimize(PlaceMatch& match) const {
@@ -260,7 +229,7 @@ class Verifier {
     match.offset_ratio = OffsetRatio(match);
     if (match.offset_ratio > options_.max_offset_ratio) return PlaceRejection::kTooFarAway;
     if (match.num_projected < options_.min_projected) return PlaceRejection::kFewProjected;
-    match.own_found_ratio = OwnFoundRatio();
+    CompareWithOwn(match);
     if (match.found_ratio < options_.min_found_ratio * match.own_found_ratio) {
       return PlaceRejection::kFewFound;
     }
@@ -273,7 +242,7 @@ class Verifier {
           neighbor.cam_from_world * Inverse(keyframe_.cam_from_world);
       const Sim3d pose = AsSimilarity(neighbor_from_query) * match.query_from_candidate_world;
       ++asked;
-      if (FindPlacePoints(neighbor, pose).num_found >= options_.min_confirming_points) {
+      if (FindPlacePoints(neighbor, pose).all.num_found >= options_.min_confirming_points) {
         ++match.num_confirming;
       }
     }
@@ -285,6 +254,7 @@ class Verifier {
   const PlaceView& query_;
   const PlaceView& candidate_;
   const PlaceVerificationOptions& options_;
+  SightingOptions sighting_options_;
   const KeyFrame& keyframe_;
   Rigid3d candidate_from_world_;
   std::vector<KeyFrameId> window_;

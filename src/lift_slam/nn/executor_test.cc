@@ -236,6 +236,10 @@ TEST(ChoosePrecision, TakesTheNextBestThatTheCpuHas) {
   EXPECT_EQ(ChoosePrecision(Precision::kInt8, vnni, true).used, Precision::kInt8);
   EXPECT_EQ(ChoosePrecision(Precision::kInt8, all, false).used, Precision::kBfloat16);
   EXPECT_EQ(ChoosePrecision(Precision::kInt8, none, true).used, Precision::kFloat32);
+  EXPECT_EQ(ChoosePrecision(Precision::kAuto, all, true).used, Precision::kBfloat16);
+  EXPECT_EQ(ChoosePrecision(Precision::kAuto, vnni, true).used, Precision::kInt8);
+  EXPECT_EQ(ChoosePrecision(Precision::kAuto, vnni, true).reason, "");
+  EXPECT_EQ(ChoosePrecision(Precision::kAuto, vnni, false).used, Precision::kFloat32);
   EXPECT_EQ(ChoosePrecision(Precision::kInt8, none, true).reason,
             "int8 needs a CPU with AVX-512 VNNI; bfloat16 needs a CPU with AVX-512 BF16");
 }

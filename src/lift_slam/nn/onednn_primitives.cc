@@ -23,6 +23,8 @@ Type SourceType(const PrimitiveRequest& request) {
       return Type::bf16;
     case Precision::kInt8:
       return request.nonnegative_input ? Type::u8 : Type::s8;
+    case Precision::kAuto:
+      break;  // ChoosePrecision has decided
   }
   return Type::f32;
 }

@@ -23,9 +23,16 @@ PrecisionChoice ChoosePrecision(Precision wanted, std::span<const std::string> c
     return std::find(cpu_features.begin(), cpu_features.end(), name) != cpu_features.end();
   };
   if (wanted == Precision::kFloat32) return {};
+  const bool can_use_int8 = has("avx512_vnni") && has_activation_ranges;
+  if (wanted == Precision::kAuto) {
+    return {has("avx512_bf16") ? Precision::kBfloat16
+            : can_use_int8     ? Precision::kInt8
+                               : Precision::kFloat32,
+            ""};
+  }
   std::string reason;
   if (wanted == Precision::kInt8) {
-    if (has("avx512_vnni") && has_activation_ranges) return {Precision::kInt8, ""};
+    if (can_use_int8) return {Precision::kInt8, ""};
     reason = has_activation_ranges ? "int8 needs a CPU with AVX-512 VNNI"
                                    : "int8 needs the ranges of the activations, which these "
                                      "weights lack";

@@ -6,7 +6,7 @@ namespace lift_slam::nn {
 namespace {
 
 PrecisionChoice ReferencePrecision(Precision wanted) {
-  if (wanted == Precision::kFloat32) return {};
+  if (wanted == Precision::kFloat32 || wanted == Precision::kAuto) return {};
   return {Precision::kFloat32, "the reference back-end computes in float32 only"};
 }
 

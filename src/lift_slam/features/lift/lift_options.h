@@ -16,8 +16,8 @@ struct LiftExtractorOptions {
   double candidate_ratio = 1.3;
   LiftDetectorOptions detector = {};
   // Of the descriptor and the orientation, where the CPU has it (else the next higher one). By
-  // docs/lift.md bfloat16 tells descriptors apart as well as float32, at about half the time.
-  nn::Precision precision = nn::Precision::kBfloat16;
+  // docs/lift.md bfloat16 and int8 tell descriptors apart as well as float32, in half the time.
+  nn::Precision precision = nn::Precision::kAuto;
   // Patches are not turned. Unlike the authors of LIFT: frames of one camera seldom differ by much
   // roll, and the orientation's errors cost a tenth to half of the inliers (docs/training.md). To
   // be set to false for a camera that rolls; the weights must have an orientation network then.
