@@ -60,6 +60,7 @@ Json PlacesJson(const RunRecord& run) {
                               {"projected", event.num_projected},
                               {"found_ratio", event.found_ratio},
                               {"own_found_ratio", event.own_found_ratio},
+                              {"mutual_ratio", event.mutual_ratio},
                               {"offset_ratio", event.offset_ratio},
                               {"confirming", event.num_confirming},
                               {"scale", event.scale}});

@@ -89,10 +89,11 @@ class RunObserver {
       const bool is_accepted = event.rejection == PlaceRejection::kAccepted;
       log_.Info(fmt::format(
           "frame {}: {} with frame {}: {} (score {:.3f}, {} by words, {} inliers, {} seen = {:.2f} "
-          "of {:.2f}, offset {:.2f}, {} confirm{})",
+          "of {:.2f}, mutual {:.2f}, offset {:.2f}, {} confirm{})",
           frame_index, Name(event.kind), event.other_frame_index, Name(event.rejection),
           event.score, event.num_word_matches, event.num_inliers, event.num_projected,
-          event.found_ratio, event.own_found_ratio, event.offset_ratio, event.num_confirming,
+          event.found_ratio, event.own_found_ratio, event.mutual_ratio, event.offset_ratio,
+          event.num_confirming,
           is_accepted ? fmt::format(", scale {:.3f}", event.scale) : std::string()));
     }
   }

@@ -114,9 +114,9 @@ void Calibrate(const LiftWeights& from, const FineTuneArguments& arguments,
     return;
   }
   const bool held_out = !arguments.validation.empty();
-  std::cout << fmt::format("Distances of descriptors measured on {}\n",
-                           held_out ? "the validation sets"
-                                    : "the training sets (no --validation given)");
+  std::cout << fmt::format(
+      "Distances of descriptors measured on {}\n",
+      held_out ? "the validation sets" : "the training sets (no --validation given)");
   CarryOverCalibration(from, OpenTrainingSets(held_out ? options.validation : options.data),
                        kBatches, weights);
 }
@@ -137,8 +137,8 @@ void FineTune(FineTuneArguments& arguments) {
   if (!is_complete) std::cerr << "Ended early; the same command goes on.\n";
   if (reached.empty()) return;
   LiftWeights weights = ReadLiftWeights(reached);
-  weights.name = fmt::format("fine-tuned ({}{})", arguments.modules,
-                             is_complete ? "" : ", not to the end");
+  weights.name =
+      fmt::format("fine-tuned ({}{})", arguments.modules, is_complete ? "" : ", not to the end");
   Calibrate(from, arguments, options, weights);
   const fs::path file = arguments.output / "weights.safetensors";
   WriteLiftWeights(weights, file);

@@ -180,8 +180,9 @@ TEST(FineTune, AlsoLeavesWeightsWhenItEndsEarly) {
   from.distances = DistanceQuantiles{{1, 2, 3, 4, 5}, {6, 7, 8, 9, 10}};
   from.descriptor_ranges = {1, 2, 3};
   WriteLiftWeights(from, folder / "from.safetensors");
-  FineTune(folder, "--minutes 0.0001 --set run.threads=1 --set run.validation_batches=1 "
-                   "--set orientation.schedule.batch=6");
+  FineTune(folder,
+           "--minutes 0.0001 --set run.threads=1 --set run.validation_batches=1 "
+           "--set orientation.schedule.batch=6");
   const LiftWeights tuned = ReadLiftWeights(folder / "tuned/weights.safetensors");
   EXPECT_EQ(tuned.name, "fine-tuned (orientation, not to the end)");
   EXPECT_EQ(tuned.distances, from.distances);

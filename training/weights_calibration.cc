@@ -85,8 +85,8 @@ void CalibrateDescriptor(const std::vector<WeightedSet>& sets, int batches, doub
   MeasureRanges(sets, weights);
 }
 
-void CarryOverCalibration(const LiftWeights& from, const std::vector<WeightedSet>& sets, int batches,
-                          LiftWeights& weights) {
+void CarryOverCalibration(const LiftWeights& from, const std::vector<WeightedSet>& sets,
+                          int batches, LiftWeights& weights) {
   LiftWeights original = from;
   const DistanceQuantiles before = MeasureDistances(original, sets, batches);
   DistanceQuantiles after = MeasureDistances(weights, sets, batches);

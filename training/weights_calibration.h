@@ -14,11 +14,11 @@ namespace lift_slam::training {
 void CalibrateDescriptor(const std::vector<WeightedSet>& sets, int batches, double nearest_wrong,
                          LiftWeights& weights);
 
-// After more training of `from`, whose descriptor it may have changed: scales the descriptor, so that
-// the nearest wrong point of the sets is as far as with `from` (median), and measures anew. The
-// quantiles that `from` came with (of whole images) are kept, each changed by the factor by which
-// it has changed on these sets.
-void CarryOverCalibration(const LiftWeights& from, const std::vector<WeightedSet>& sets, int batches,
-                          LiftWeights& weights);
+// After more training of `from`, whose descriptor it may have changed: scales the descriptor, so
+// that the nearest wrong point of the sets is as far as with `from` (median), and measures anew.
+// The quantiles that `from` came with (of whole images) are kept, each changed by the factor by
+// which it has changed on these sets.
+void CarryOverCalibration(const LiftWeights& from, const std::vector<WeightedSet>& sets,
+                          int batches, LiftWeights& weights);
 
 }  // namespace lift_slam::training

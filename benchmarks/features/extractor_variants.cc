@@ -14,7 +14,8 @@ std::vector<Variant> Variants(std::span<const NamedWeights> all, const QualityOp
     for (const bool upright : {true, false}) {
       if (!upright && !weights.orientation) continue;
       for (const nn::Precision wanted : options.precisions) {
-        const nn::Precision precision = LiftNetworks(weights, {.precision = wanted}).precision().used;
+        const nn::Precision precision =
+            LiftNetworks(weights, {.precision = wanted}).precision().used;
         const bool is_possible = wanted == nn::Precision::kAuto || precision == wanted;
         if (!is_possible) continue;  // the CPU or the file cannot
         variants.push_back(

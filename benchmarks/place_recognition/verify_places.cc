@@ -1,7 +1,7 @@
-// How well geometry tells places apart (docs/loop_closing.md): verifies each keyframe of a saved map
-// with the candidates that words give, as loop closing does but without waiting for several
-// keyframes in a row, and writes a row of CSV for each with the true distance and angle between both
-// cameras.
+// How well geometry tells places apart (docs/loop_closing.md): verifies each keyframe of a saved
+// map with the candidates that words give, as loop closing does but without waiting for several
+// keyframes in a row, and writes a row of CSV for each with the true distance and angle between
+// both cameras.
 //
 // Usage: verify_places SEQUENCE MAP [--lift] [--set KEY=VALUE]...
 //   SEQUENCE   that the map was made from, with ground truth
@@ -9,7 +9,6 @@
 //   --lift     the map is of LIFT features of the weights that ship; else of ORB's
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -20,9 +19,7 @@
 #include "apps/vocabulary_choice.h"
 #include "lift_slam/datasets/sequence.h"
 #include "lift_slam/loop_closing/loop_detector.h"
-#include "lift_slam/loop_closing/place_sighting.h"
 #include "lift_slam/map/map_file.h"
-#include "lift_slam/optimization/pose_graph.h"
 #include "lift_slam/slam/feature_options.h"
 #include "lift_slam/slam/frame_preparer.h"
 #include "lift_slam/slam/slam_options.h"
@@ -92,61 +89,23 @@ class Verification {
       const KeyFrameId candidate(verdict.candidate.keyframe);
       const PlaceMatch match = VerifyPlace(query, {map, places, candidate}, options_.verification,
                                            query.keyframe.index());
-      if (!PrintRow(query.map.keyframe(query.keyframe).frame_index,
-                    map.keyframe(candidate).frame_index, verdict.candidate.score, match)) {
-        continue;
-      }
-      PrintReverse(query, {map, places, candidate}, match);
+      PrintRow(query.map.keyframe(query.keyframe).frame_index, map.keyframe(candidate).frame_index,
+               verdict.candidate.score, match);
     }
   }
 
-  // How much of what the query's surroundings have should be and is seen by the candidate.
-  void PrintReverse(const PlaceView& query, const PlaceView& candidate,
-                    const PlaceMatch& match) const {
-    const PlaceVerificationOptions& o = options_.verification;
-    const SightingOptions sighting{o.search_radius_factor, o.max_squared_error};
-    const KeyFrame& keyframe = query.map.keyframe(query.keyframe);
-    const KeyFrame& other = candidate.map.keyframe(candidate.keyframe);
-    const auto similarity = [](const Rigid3d& pose) {
-      return Sim3d(1.0, pose.rotation, pose.translation);
-    };
-    const Sim3d other_from_query_world = similarity(other.cam_from_world) *
-                                         Inverse(match.query_from_candidate_world) *
-                                         similarity(keyframe.cam_from_world);
-    const auto around = [&](const PlaceView& view) {
-      return WithNeighbors(view.map, view.keyframe, 15, o.window_keyframes);
-    };
-    const Sighting found =
-        FindPoints(query.map, query.map.PointsSeenBy(around(query)), other,
-                   CorrectedPose(other_from_query_world), sighting);
-    std::vector<KeyFrameId> beside = around(candidate);
-    beside.erase(beside.begin());
-    const Sighting own = FindPoints(candidate.map, candidate.map.PointsSeenBy(beside), other,
-                                    other.cam_from_world, sighting);
-    const auto points = std::ranges::count_if(keyframe.map_points,
-                                              [](MapPointId id) { return id.valid(); });
-    fmt::print(",{:.4f},{:.4f},{:.3f},{}\n", found.all.FoundRatio(), own.all.FoundRatio(),
-               LeastPartRatio(found.parts, own.parts, o.min_part_points).value_or(-1.0), points);
-  }
-
-  // False where there is no ground truth.
-  bool PrintRow(std::int64_t query, std::int64_t candidate, double score,
+  void PrintRow(std::int64_t query, std::int64_t candidate, double score,
                 const PlaceMatch& match) const {
     const auto a = poses_.find(query), b = poses_.find(candidate);
-    if (a == poses_.end() || b == poses_.end()) return false;
+    if (a == poses_.end() || b == poses_.end()) return;
     const double angle = RotationAngle(a->second.rotation * b->second.rotation.conjugate());
-    fmt::print("{},{},{:.3f},{:.2f},{},{:.4f},{},{},{},{},{:.4f},{:.4f},{:.3f},{},{:.3f}", query,
-               candidate, (a->second.translation - b->second.translation).norm(),
-               angle * 180.0 / std::numbers::pi, Name(match.rejection), score,
-               match.num_word_matches, match.num_ransac_inliers, match.num_inliers,
-               match.num_projected, match.found_ratio, match.own_found_ratio, match.offset_ratio,
-               match.num_confirming, match.least_part_ratio.value_or(-1.0));
-    for (const SightingParts* parts : {&match.parts, &match.own_parts}) {
-      for (const SightingCount& part : *parts) {
-        fmt::print(",{},{}", part.num_found, part.num_visible);
-      }
-    }
-    return true;
+    fmt::print(
+        "{},{},{:.3f},{:.2f},{},{:.4f},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.3f},{}\n",
+        query, candidate, (a->second.translation - b->second.translation).norm(),
+        angle * 180.0 / std::numbers::pi, Name(match.rejection), score, match.num_word_matches,
+        match.num_ransac_inliers, match.num_inliers, match.num_projected, match.found_ratio,
+        match.own_found_ratio, match.reverse_found_ratio, match.reverse_own_found_ratio,
+        match.mutual_ratio, match.offset_ratio, match.num_confirming);
   }
 
   LoopClosingOptions options_;
@@ -166,13 +125,8 @@ void Run(const Arguments& arguments) {
   const MapFile file = ReadMapFile(arguments.map, preparer.view(), kind);
   fmt::print(
       "query,other,distance_m,angle_deg,result,score,word_matches,ransac_inliers,inliers,projected,"
-      "found_ratio,own_found_ratio,offset_ratio,confirming,least_part_ratio");
-  for (const char* whose : {"place", "own"}) {
-    for (const char* part : {"near_left", "near_right", "far_left", "far_right"}) {
-      fmt::print(",{0}_{1}_found,{0}_{1}_visible", whose, part);
-    }
-  }
-  fmt::print(",reverse_ratio,reverse_own_ratio,reverse_least_part,query_points\n");
+      "found_ratio,own_found_ratio,reverse_found_ratio,reverse_own_found_ratio,mutual_ratio,"
+      "offset_ratio,confirming\n");
   Verification verification(arguments, TruePoses(sequence->info()), places.vocabulary);
   for (const StoredMap& stored : file.maps) verification.Verify(*stored.map);
 }

@@ -10,11 +10,9 @@ void PlaceVerificationOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("max_offset_ratio", max_offset_ratio,
                 "distance between both cameras, over the median depth of the place's points");
   visitor.Field("min_projected", min_projected, "features that show a point of the place");
-  visitor.Field(
-      "min_found_ratio", min_found_ratio,
-      "share of the place's points that are seen, over that of the points around the query");
-  visitor.Field("min_part_points", min_part_points,
-                "points expected in a part of the view for its share to count");
+  visitor.Field("min_mutual_ratio", min_mutual_ratio,
+                "share of the place's points that the query sees and of the query's that the place "
+                "sees, each over the usual one there; geometric mean");
   visitor.Field("confirming_keyframes", confirming_keyframes,
                 "covisible keyframes of the query that are asked whether they see the place");
   visitor.Field("min_confirming", min_confirming, "of these that must see it");

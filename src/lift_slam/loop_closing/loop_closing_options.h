@@ -20,11 +20,9 @@ struct PlaceVerificationOptions {
   // placed roughly, and comes nearer when it is the same way.
   double max_offset_ratio = 1.0;
   int min_projected = 70;  // features that show a point of the place; false ones reached 61
-  // Share of the place's points that the query should see and does, over the same share of the
-  // points around the query. At the place itself it is 0.9 to 1.2 (rendered drives); 10 m before it
-  // 0.6, but so it is where the same walls and boards stand elsewhere.
-  double min_found_ratio = 0.7;
-  int min_part_points = 20;  // expected in a part of the view for its share to mean something
+  // PlaceMatch::mutual_ratio: within 5 m of the place it is 0.62 to 1.2 (rendered drives, ORB and
+  // LIFT); where the same walls and boards stand elsewhere up to 0.61.
+  double min_mutual_ratio = 0.67;
   int confirming_keyframes = 5;       // covisible keyframes of the query that should see the place
   int min_confirming = 2;             // of these
   int min_confirming_points = 20;     // that each must see

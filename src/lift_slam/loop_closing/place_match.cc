@@ -47,7 +47,7 @@ std::string_view Explain(PlaceRejection rejection) {
     case PlaceRejection::kFewProjected:
       return "Too few points of the place are found where they should be seen.";
     case PlaceRejection::kFewFound:
-      return "Most of the place's points are not seen: only some texture repeats itself.";
+      return "Too little of each place is seen from the other: only some texture repeats itself.";
     case PlaceRejection::kNotConfirmed:
       return "The keyframes before do not see the place.";
     case PlaceRejection::kNotRepeated:

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "lift_slam/geometry/sim3.h"
-#include "lift_slam/loop_closing/place_sighting.h"
 #include "lift_slam/map/ids.h"
 
 namespace lift_slam {
@@ -17,7 +16,7 @@ enum class PlaceRejection {
   kFewInliers,      // too few agree after its optimisation
   kTooFarAway,      // it shows the place, but from so far that the similarity is rough
   kFewProjected,    // too few of the place's points are found where it puts them
-  kFewFound,        // too small a share of them, as where only a texture repeats itself
+  kFewFound,        // either sees too little of the other, as where only a texture repeats itself
   kNotConfirmed,    // the keyframes around the query do not see the place's points
   kNotRepeated,     // no other keyframe nearby says the same (yet)
   kTooMuchDrift,    // it would mean more drift than the way between both can have made
@@ -36,8 +35,10 @@ struct PlaceMatch {
   int num_projected = 0;         // features of the query that show a point of the place
   double found_ratio = 0.0;      // these over the place's points that the query should see
   double own_found_ratio = 0.0;  // the same for the points around the query itself
-  SightingParts parts{}, own_parts{};      // both by parts of the view
-  std::optional<double> least_part_ratio;  // see LeastPartRatio
+  // The same from the place's side: of the points around the query those that the candidate should
+  // see and does, and of the points around the candidate itself.
+  double reverse_found_ratio = 0.0, reverse_own_found_ratio = 0.0;
+  double mutual_ratio = 0.0;  // geometric mean of both shares, each over the own one
   // Distance between both cameras over the median depth of the candidate's points.
   double offset_ratio = 0.0;
   int num_confirming = 0;  // covisible keyframes of the query that see the place too

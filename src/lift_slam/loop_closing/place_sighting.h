@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,25 +7,15 @@
 
 namespace lift_slam {
 
-// Points expected and found in a part of a view.
-struct SightingCount {
-  int num_visible = 0;  // that should be seen
-  int num_found = 0;    // these that are
+// What a camera sees of points that should be there.
+struct Sighting {
+  std::vector<MapPointId> points;  // by feature
+  int num_visible = 0;             // that should be seen
+  int num_found = 0;               // these that are
 
   double FoundRatio() const {
     return num_visible > 0 ? static_cast<double>(num_found) / num_visible : 0.0;
   }
-};
-
-// Near left, near right, far left, far right; near is what is nearer than the median of the expected
-// points, left what lies left of the image's middle.
-using SightingParts = std::array<SightingCount, 4>;
-
-// What a camera sees of points that should be there.
-struct Sighting {
-  std::vector<MapPointId> points;  // by feature
-  SightingCount all;
-  SightingParts parts{};
 };
 
 struct SightingOptions {
@@ -39,10 +27,5 @@ struct SightingOptions {
 // `cam_from_world` in the world of the points.
 Sighting FindPoints(const Map& map, std::span<const MapPointId> points, const KeyFrame& keyframe,
                     const Rigid3d& cam_from_world, const SightingOptions& options);
-
-// The least of the parts' found ratios over the usual ones, among the parts where either expects at
-// least `min_visible` points; nothing where there is no such part.
-std::optional<double> LeastPartRatio(const SightingParts& parts, const SightingParts& usual,
-                                     int min_visible);
 
 }  // namespace lift_slam

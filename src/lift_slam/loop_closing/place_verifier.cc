@@ -186,21 +186,42 @@ class Verifier {
   void FindGuided(PlaceMatch& match) const {
     Sighting sighting = FindPlacePoints(keyframe_, match.query_from_candidate_world);
     match.points = std::move(sighting.points);
-    match.num_projected = sighting.all.num_found;
-    match.found_ratio = sighting.all.FoundRatio();
-    match.parts = sighting.parts;
+    match.num_projected = sighting.num_found;
+    match.found_ratio = sighting.FoundRatio();
   }
 
-  // How well the query sees the points around itself.
-  void CompareWithOwn(PlaceMatch& match) const {
+  // How well a keyframe sees the points around itself.
+  double OwnFoundRatio(const Map& map, KeyFrameId id) const {
     std::vector<KeyFrameId> around =
-        WithNeighbors(query_.map, query_.keyframe, kWindowMinShared, options_.window_keyframes);
+        WithNeighbors(map, id, kWindowMinShared, options_.window_keyframes);
     around.erase(around.begin());  // itself
-    const Sighting own = FindPoints(query_.map, query_.map.PointsSeenBy(around), keyframe_,
-                                    keyframe_.cam_from_world, sighting_options_);
-    match.own_found_ratio = around.empty() ? 1.0 : own.all.FoundRatio();
-    match.own_parts = own.parts;
-    match.least_part_ratio = LeastPartRatio(match.parts, own.parts, options_.min_part_points);
+    if (around.empty()) return 1.0;
+    const KeyFrame& keyframe = map.keyframe(id);
+    return FindPoints(map, map.PointsSeenBy(around), keyframe, keyframe.cam_from_world,
+                      sighting_options_)
+        .FoundRatio();
+  }
+
+  // How well the candidate sees the points around the query.
+  double ReverseFoundRatio(const PlaceMatch& match) const {
+    const Sim3d candidate_from_query_world = AsSimilarity(candidate_from_world_) *
+                                             Inverse(match.query_from_candidate_world) *
+                                             AsSimilarity(keyframe_.cam_from_world);
+    const std::vector<KeyFrameId> around =
+        WithNeighbors(query_.map, query_.keyframe, kWindowMinShared, options_.window_keyframes);
+    return FindPoints(query_.map, query_.map.PointsSeenBy(around),
+                      candidate_.map.keyframe(candidate_.keyframe),
+                      CorrectedPose(candidate_from_query_world), sighting_options_)
+        .FoundRatio();
+  }
+
+  void CompareShares(PlaceMatch& match) const {
+    match.own_found_ratio = OwnFoundRatio(query_.map, query_.keyframe);
+    match.reverse_own_found_ratio = OwnFoundRatio(candidate_.map, candidate_.keyframe);
+    match.reverse_found_ratio = ReverseFoundRatio(match);
+    const double own = match.own_found_ratio * match.reverse_own_found_ratio;
+    match.mutual_ratio =
+        own > 0.0 ? std::sqrt(match.found_ratio * match.reverse_found_ratio / own) : 0.0;
   }
 
   int Optimize(PlaceMatch& match) const {
@@ -229,10 +250,8 @@ class Verifier {
     match.offset_ratio = OffsetRatio(match);
     if (match.offset_ratio > options_.max_offset_ratio) return PlaceRejection::kTooFarAway;
     if (match.num_projected < options_.min_projected) return PlaceRejection::kFewProjected;
-    CompareWithOwn(match);
-    if (match.found_ratio < options_.min_found_ratio * match.own_found_ratio) {
-      return PlaceRejection::kFewFound;
-    }
+    CompareShares(match);
+    if (match.mutual_ratio < options_.min_mutual_ratio) return PlaceRejection::kFewFound;
     int asked = 0;
     for (const KeyFrameId id : WithNeighbors(query_.map, query_.keyframe, kWindowMinShared,
                                              options_.confirming_keyframes)) {
@@ -242,7 +261,7 @@ class Verifier {
           neighbor.cam_from_world * Inverse(keyframe_.cam_from_world);
       const Sim3d pose = AsSimilarity(neighbor_from_query) * match.query_from_candidate_world;
       ++asked;
-      if (FindPlacePoints(neighbor, pose).all.num_found >= options_.min_confirming_points) {
+      if (FindPlacePoints(neighbor, pose).num_found >= options_.min_confirming_points) {
         ++match.num_confirming;
       }
     }

@@ -121,6 +121,7 @@ void MapCollection::RecordReport(const LoopReport& report, const MapSession& oth
     event.num_projected = match.num_projected;
     event.found_ratio = match.found_ratio;
     event.own_found_ratio = match.own_found_ratio;
+    event.mutual_ratio = match.mutual_ratio;
     event.offset_ratio = match.offset_ratio;
     event.num_confirming = match.num_confirming;
     if (report.correction && is_accepted) {

@@ -71,7 +71,8 @@ struct PlaceEvent {
   std::int64_t other_frame_index = -1;  // of the earlier one
   double score = 0.0;                   // of the images' words; 0 for a relocalisation
   int num_word_matches = 0, num_inliers = 0, num_projected = 0, num_confirming = 0;
-  double found_ratio = 0.0, own_found_ratio = 0.0, offset_ratio = 0.0;  // see PlaceMatch
+  // See PlaceMatch.
+  double found_ratio = 0.0, own_found_ratio = 0.0, mutual_ratio = 0.0, offset_ratio = 0.0;
   double scale = 1.0;  // by which a closed loop changed lengths at this frame
 };
 
