@@ -1,11 +1,14 @@
 // Precision and recall of place recognition on a sequence that comes back: for each image the most
-// alike of those at least GAP before it. Prints a row a vocabulary and score, as Markdown.
+// alike of those at least GAP before it. Prints a row a vocabulary and score, as Markdown. Features
+// are those that each vocabulary is made for.
 //
 // Usage: place_recognition_benchmark SEQUENCE [--period N] [--step N] [--gap N] [--weights FILE]
-//        [--turned] [--curves FILE] VOCABULARY...
+//        [--turned] [--curves FILE] [--picture FILE] VOCABULARY...
 //   --period   images a lap: image i shows the place of image i - N, up to 2 images beside; without
 //              it the sequence's ground truth decides: within --distance of the camera and --angle
+//   --weights  of LIFT (default: those that ship)
 //   --curves   writes every point of every curve: name, threshold, precision, recall
+//   --picture  draws the curves (.svg)
 #include <fmt/format.h>
 
 #include <chrono>
@@ -14,6 +17,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -21,16 +25,20 @@
 #include "benchmarks/place_recognition/precision_recall.h"
 #include "benchmarks/place_recognition/vlad.h"
 #include "lift_slam/datasets/sequence.h"
+#include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/features/orb/orb_extractor.h"
 #include "lift_slam/place_recognition/vocabulary.h"
+#include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/visualization/plain_svg.h"
+#include "lift_slam/visualization/svg_plot.h"
 
 namespace lift_slam {
 namespace {
 
 struct Arguments {
-  std::string sequence, weights, curves;
+  std::string sequence, weights, curves, picture;
   int period = 0, step = 1, gap = 10;
   double distance = 2.0, angle_deg = 25.0;
   bool upright = true;
@@ -116,23 +124,37 @@ Scorer Relative(const Scorer& score) {
   };
 }
 
-void PrintRow(const std::string& name, const std::string& method, double megabytes,
-              const Truth& truth, const Scorer& score, std::ofstream& curves) {
-  const auto curve = PrecisionRecallCurve(truth.Answers(score));
-  fmt::print("| {} | {} | {:.2f} | {:.1f} | {:.1f} | {:.3f} |\n", name, method, megabytes,
-             100.0 * RecallAtFullPrecision(curve), 100.0 * FullRecall(curve),
-             AveragePrecision(curve));
-  std::fflush(stdout);
-  for (const PrecisionRecall& point : curve) {
-    if (curves) {
+// Where the results go.
+struct Results {
+  std::ofstream curves;
+  Plot plot;
+
+  void Add(const std::string& name, const std::string& method, double megabytes,
+           const std::vector<PrecisionRecall>& curve) {
+    fmt::print("| {} | {} | {:.2f} | {:.1f} | {:.1f} | {:.3f} |\n", name, method, megabytes,
+               100.0 * RecallAtFullPrecision(curve), 100.0 * FullRecall(curve),
+               AveragePrecision(curve));
+    std::fflush(stdout);
+    for (const PrecisionRecall& point : curve) {
+      if (!curves) break;
       curves << fmt::format("{} {}\t{:.6f}\t{:.4f}\t{:.4f}\n", name, method, point.threshold,
                             point.precision, point.recall);
     }
   }
-}
 
-void Measure(const std::string& path, const Images& images, const Truth& truth,
-             std::ofstream& curves) {
+  void Draw(const std::string& label, const std::vector<PrecisionRecall>& curve) {
+    PlotSeries series;
+    series.label = label;
+    series.color = static_cast<PlotColor>(1 + plot.series.size() % (kNumPlotColors - 1));
+    for (const PrecisionRecall& point : curve) {
+      series.x.push_back(100.0 * point.recall);
+      series.y.push_back(100.0 * point.precision);
+    }
+    plot.series.push_back(std::move(series));
+  }
+};
+
+void Measure(const std::string& path, const Images& images, const Truth& truth, Results& results) {
   const auto begin = std::chrono::steady_clock::now();
   const Vocabulary vocabulary(path);
   const auto loaded = std::chrono::steady_clock::now();
@@ -145,25 +167,30 @@ void Measure(const std::string& path, const Images& images, const Truth& truth,
   }
   const auto transformed = std::chrono::steady_clock::now();
   const VocabularyInfo& info = vocabulary.info();
-  const std::string name =
-      fmt::format("k {}, L {}, {} words", info.branching, info.depth, info.num_words);
+  const std::string features_name = info.kind.name.substr(0, info.kind.name.find(':'));
+  const std::string name = fmt::format("{}, k {}, L {}, {} words", features_name, info.branching,
+                                       info.depth, info.num_words);
   const double megabytes = static_cast<double>(info.num_bytes) * 1e-6;
   for (const BagScore kind : {BagScore::kL1, BagScore::kL2}) {
     const Scorer score = [&, kind](std::size_t i, std::size_t j) {
       return Score(bags[i], bags[j], kind);
     };
     const std::string method = kind == BagScore::kL1 ? "L1" : "L2";
-    PrintRow(name, method, megabytes, truth, score, curves);
-    PrintRow(name, method + " relative", megabytes, truth, Relative(score), curves);
+    const auto curve = PrecisionRecallCurve(truth.Answers(score));
+    results.Add(name, method, megabytes, curve);
+    results.Draw(features_name + " " + method, curve);
+    results.Add(name, method + " relative", megabytes,
+                PrecisionRecallCurve(truth.Answers(Relative(score))));
   }
   const VladAggregator aggregator(vocabulary);
   std::vector<std::vector<float>> vectors;
   for (const Descriptors& descriptors : images.descriptors) {
     vectors.push_back(aggregator.Aggregate(descriptors));
   }
-  PrintRow(
-      name, fmt::format("VLAD {}", aggregator.dimension()), megabytes, truth,
-      [&](std::size_t i, std::size_t j) { return Cosine(vectors[i], vectors[j]); }, curves);
+  const auto curve = PrecisionRecallCurve(
+      truth.Answers([&](std::size_t i, std::size_t j) { return Cosine(vectors[i], vectors[j]); }));
+  results.Add(name, fmt::format("VLAD {}", aggregator.dimension()), megabytes, curve);
+  results.Draw(features_name + " VLAD", curve);
   const std::chrono::duration<double, std::milli> load = loaded - begin;
   const std::chrono::duration<double, std::micro> words = transformed - loaded;
   fmt::print(stderr, "{}: loaded in {:.1f} ms, {:.2f} us a feature\n", path, load.count(),
@@ -192,6 +219,8 @@ Arguments Parse(int argc, char** argv) {
       arguments.weights = value();
     } else if (word == "--turned") {
       arguments.upright = false;
+    } else if (word == "--picture") {
+      arguments.picture = value();
     } else if (word == "--curves") {
       arguments.curves = value();
     } else if (arguments.sequence.empty()) {
@@ -204,19 +233,14 @@ Arguments Parse(int argc, char** argv) {
   return arguments;
 }
 
-std::unique_ptr<FeatureExtractor> MakeExtractor(const Arguments& arguments) {
-  if (arguments.weights.empty()) return CreateOrbExtractor({});
+std::unique_ptr<FeatureExtractor> MakeExtractor(const Arguments& arguments, bool is_orb) {
+  if (is_orb) return CreateOrbExtractor({});
   LiftExtractorOptions options;
   options.upright = arguments.upright;
-  options.num_threads = 2;
-  return CreateLiftExtractor(ReadLiftWeights(arguments.weights), options);
+  return CreateLiftExtractor(ReadLiftWeightsOrDefault(arguments.weights), options);
 }
 
-void Run(const Arguments& arguments) {
-  const Images images = Extract(arguments, *MakeExtractor(arguments));
-  const Truth truth(arguments, images);
-  std::ofstream curves;
-  if (!arguments.curves.empty()) curves.open(arguments.curves);
+void PrintHead(const Images& images, const Truth& truth) {
   int with_match = 0, queries = 0;
   for (const PlaceAnswer& answer : truth.Answers([](std::size_t, std::size_t) { return 0.0; })) {
     with_match += answer.has_match;
@@ -227,7 +251,27 @@ void Run(const Arguments& arguments) {
   fmt::print(
       "| vocabulary | score | MB | recall at 100 % precision, % | recall at any, % | average "
       "precision |\n| --- | --- | --- | --- | --- | --- |\n");
-  for (const std::string& path : arguments.vocabularies) Measure(path, images, truth, curves);
+}
+
+void Run(const Arguments& arguments) {
+  Results results;
+  if (!arguments.curves.empty()) results.curves.open(arguments.curves);
+  results.plot.description = "Precision over recall";
+  results.plot.x = {"recall [%]", false, 0.0, 100.0};
+  results.plot.y = {"precision [%]", false, std::nullopt, 100.0};
+  std::map<bool, Images> images_of;  // by whether they are ORB's features
+  for (const std::string& path : arguments.vocabularies) {
+    const bool is_orb = Vocabulary(path).info().kind.name == "orb";
+    if (images_of.count(is_orb) == 0) {
+      images_of[is_orb] = Extract(arguments, *MakeExtractor(arguments, is_orb));
+    }
+    const Truth truth(arguments, images_of[is_orb]);
+    if (path == arguments.vocabularies.front()) PrintHead(images_of[is_orb], truth);
+    Measure(path, images_of[is_orb], truth, results);
+  }
+  if (!arguments.picture.empty()) {
+    WriteTextAtomically(arguments.picture, PlainSvg(RenderSvgFile(results.plot)));
+  }
 }
 
 }  // namespace

@@ -20,9 +20,9 @@ struct PlaceVerificationOptions {
   // placed roughly, and comes nearer when it is the same way.
   double max_offset_ratio = 1.0;
   int min_projected = 70;  // features that show a point of the place; false ones reached 61
-  // PlaceMatch::mutual_ratio: within 5 m of the place it is 0.62 to 1.2 (rendered drives, ORB and
-  // LIFT); where the same walls and boards stand elsewhere up to 0.61.
-  double min_mutual_ratio = 0.67;
+  // PlaceMatch::mutual_ratio: within 5 m of the place it is 0.66 to 1.2 (rendered drives, ORB and
+  // LIFT); where the same walls and boards stand elsewhere up to 0.66.
+  double min_mutual_ratio = 0.7;
   int confirming_keyframes = 5;       // covisible keyframes of the query that should see the place
   int min_confirming = 2;             // of these
   int min_confirming_points = 20;     // that each must see
@@ -74,7 +74,8 @@ struct LoopClosingOptions {
   std::string vocabulary;          // file; empty: the one shipped for the features
   bool relocalisation = true;      // of a lost camera, in all maps of the run
   bool merging = true;             // of maps that show the same place
-  BagScore score = BagScore::kL2;  // the paper's
+  // The paper's is L2, which finds fewer places, most of all with LIFT (docs/place_recognition.md).
+  BagScore score = BagScore::kL1;
   CandidateSelectionOptions candidates;
   int min_shared_points = 15;  // of covisible keyframes, which are no candidates
   // A candidate is this many keyframes older at least than the query.
