@@ -48,6 +48,19 @@ class PlaceVerifierTest : public testing::Test {
     return closer.FindInOtherMap(KeyFrameId(2), map, first_, *first_closer_);
   }
 
+  PlaceIndex IndexOf(const Map& map) const {
+    PlaceIndex places(vocabulary_, options_.score);
+    for (const KeyFrameId id : map.KeyFrameIds()) places.Add(map.keyframe(id));
+    return places;
+  }
+
+  // The newest keyframe of one map with the middle one of another.
+  PlaceMatch Verify(const Map& query, const Map& other) const {
+    const PlaceIndex query_index = IndexOf(query), index = IndexOf(other);
+    return VerifyPlace({query, query_index, KeyFrameId(2)}, {other, index, KeyFrameId(1)},
+                       options_.verification, 1);
+  }
+
   LoopClosingOptions options_;
   SyntheticFrames scene_{300, 4.0, 8.0, 5}, elsewhere_{300, 4.0, 8.0, 77};
   Map first_{scene_.view()}, second_{scene_.view()}, third_{elsewhere_.view()};
@@ -71,17 +84,23 @@ TEST_F(PlaceVerifierTest, SamePlaceGivesTheSimilarityBetweenTheMaps) {
   }
 }
 
+TEST_F(PlaceVerifierTest, AWallThatStandsElsewhereTooIsNotThePlace) {
+  // The first 120 points of the scene: seen from either side one of both shares is whole.
+  SyntheticFrames wall(120, 4.0, 8.0, 5);
+  Map walled{wall.view()};
+  wall.FillMap({CameraAt(0.0), CameraAt(0.1), CameraAt(0.2)}, walled);
+  const PlaceMatch has_less = Verify(second_, walled);
+  EXPECT_EQ(has_less.rejection, PlaceRejection::kFewFound) << Name(has_less.rejection);
+  EXPECT_NEAR(has_less.found_ratio, 1.0, 0.05);
+  EXPECT_NEAR(has_less.mutual_ratio, std::sqrt(120.0 / 300.0), 0.05);
+  const PlaceMatch has_more = Verify(walled, second_);
+  EXPECT_EQ(has_more.rejection, PlaceRejection::kFewFound) << Name(has_more.rejection);
+  EXPECT_NEAR(has_more.mutual_ratio, std::sqrt(120.0 / 300.0), 0.05);
+  EXPECT_NEAR(Verify(second_, first_).mutual_ratio, 1.0, 0.05);
+}
+
 TEST_F(PlaceVerifierTest, AnotherPlaceIsRefusedWithTheReason) {
-  const Map& other = first_;
-  const PlaceIndex index = [&] {
-    PlaceIndex places(vocabulary_, BagScore::kL2);
-    for (const KeyFrameId id : other.KeyFrameIds()) places.Add(other.keyframe(id));
-    return places;
-  }();
-  PlaceIndex query_index(vocabulary_, BagScore::kL2);
-  for (const KeyFrameId id : third_.KeyFrameIds()) query_index.Add(third_.keyframe(id));
-  const PlaceMatch match = VerifyPlace({third_, query_index, KeyFrameId(2)},
-                                       {other, index, KeyFrameId(1)}, options_.verification, 1);
+  const PlaceMatch match = Verify(third_, first_);
   EXPECT_EQ(match.rejection, PlaceRejection::kFewWordMatches);
   for (const PlaceAttempt& attempt : Find(third_, *third_closer_).attempts) {
     EXPECT_NE(attempt.match.rejection, PlaceRejection::kAccepted);

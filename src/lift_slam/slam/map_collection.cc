@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/timer.h"
@@ -54,6 +55,7 @@ void MapCollection::ThrowAwayActive() {
   }
   maps_.pop_back();
   active_ = nullptr;
+  merge_claims_.clear();
 }
 
 std::optional<MapSession::Step> MapCollection::Relocalize(const PreparedFrame& prepared) {
@@ -86,15 +88,31 @@ void MapCollection::RecognizePlaces(const MapSession::Step& step) {
   if (!options_.loop_closing.merging) return;
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     if (maps_[i].get() == active_) continue;
-    const LoopReport report = active_->FindNewestIn(*maps_[i]);
-    RecordReport(report, *maps_[i], PlaceEventKind::kMerge);
-    if (report.attempts.empty() ||
-        report.attempts.back().match.rejection != PlaceRejection::kAccepted) {
-      continue;
+    LoopReport report = active_->FindNewestIn(*maps_[i]);
+    const bool is_found = !report.attempts.empty() &&
+                          report.attempts.back().match.rejection == PlaceRejection::kAccepted;
+    const bool is_confirmed = is_found && IsConfirmed(report.attempts.back(), *maps_[i]);
+    if (is_found && !is_confirmed) {
+      report.attempts.back().match.rejection = PlaceRejection::kNotRepeated;
     }
+    RecordReport(report, *maps_[i], PlaceEventKind::kMerge);
+    if (!is_confirmed) continue;
     MergeWith(i, report.attempts.back());
     return;
   }
+}
+
+bool MapCollection::IsConfirmed(const PlaceAttempt& attempt, const MapSession& other) {
+  auto claims = std::ranges::find_if(merge_claims_, [&](const MergeClaims& c) {
+    return c.active == active_ && c.other == &other;
+  });
+  if (claims == merge_claims_.end()) {
+    merge_claims_.push_back(
+        {active_, &other, LoopConfirmation(options_.loop_closing.confirmation)});
+    claims = std::prev(merge_claims_.end());
+  }
+  return claims->confirmation.Confirms(attempt.edge.query, attempt.match.query_from_candidate_world,
+                                       active_->map());
 }
 
 void MapCollection::RecordReport(const LoopReport& report, const MapSession& other,
@@ -153,6 +171,7 @@ void MapCollection::MergeWith(std::size_t other, const PlaceAttempt& attempt) {
                            active == older ? MapSession::MergeSide::kQueryIsMine
                                            : MapSession::MergeSide::kQueryIsOthers);
   active_ = maps_[older].get();
+  merge_claims_.clear();
   maps_.erase(maps_.begin() + static_cast<std::ptrdiff_t>(younger));
   RenumberFrames(static_cast<int>(younger), static_cast<int>(older));
   ++record_.maps_merged;

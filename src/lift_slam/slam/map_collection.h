@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lift_slam/loop_closing/loop_confirmation.h"
 #include "lift_slam/slam/map_session.h"
 #include "lift_slam/slam/run_record.h"
 #include "lift_slam/slam/slam_options.h"
@@ -47,6 +48,15 @@ class MapCollection {
   void AdjustAll();
 
  private:
+  // What two maps' keyframes have said of where the one lies in the other.
+  struct MergeClaims {
+    const MapSession* active;
+    const MapSession* other;
+    LoopConfirmation confirmation;
+  };
+
+  // Whether another keyframe has said the same of the active map and another one.
+  bool IsConfirmed(const PlaceAttempt& attempt, const MapSession& other);
   void RecordReport(const LoopReport& report, const MapSession& other, PlaceEventKind kind);
   void MergeWith(std::size_t other, const PlaceAttempt& attempt);
   // The younger map's frames now belong to the older one.
@@ -57,6 +67,7 @@ class MapCollection {
   RunRecord& record_;
   std::vector<std::unique_ptr<MapSession>> maps_;
   MapSession* active_ = nullptr;
+  std::vector<MergeClaims> merge_claims_;  // of maps that are there
 };
 
 }  // namespace lift_slam
