@@ -107,7 +107,6 @@ fs::path TrainStages(const FineTuneArguments& arguments, TrainingOptions options
 // What the SLAM uses of the weights beside the networks: thresholds and ranges for int8.
 void Calibrate(const LiftWeights& from, const FineTuneArguments& arguments,
                const TrainingOptions& options, LiftWeights& weights) {
-  constexpr int kBatches = 64;
   if (arguments.modules == "orientation" || arguments.modules == "detector") {
     weights.distances = from.distances;
     weights.descriptor_ranges = from.descriptor_ranges;
@@ -117,8 +116,8 @@ void Calibrate(const LiftWeights& from, const FineTuneArguments& arguments,
   std::cout << fmt::format(
       "Distances of descriptors measured on {}\n",
       held_out ? "the validation sets" : "the training sets (no --validation given)");
-  CarryOverCalibration(from, OpenTrainingSets(held_out ? options.validation : options.data),
-                       kBatches, weights);
+  CarryOverCalibration(from, OpenTrainingSets(held_out ? options.validation : options.data), {},
+                       weights);
 }
 
 void FineTune(FineTuneArguments& arguments) {

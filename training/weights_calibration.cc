@@ -53,9 +53,8 @@ void ScaleDescriptors(LiftWeights& weights, double factor) {
   }
 }
 
-void MeasureRanges(const std::vector<WeightedSet>& sets, LiftWeights& weights) {
-  constexpr int kPatches = 256;
-  const PatchBatch batch = PatchSampler(sets, {.count = kPatches}, {}, {}, 1).Draw(0);
+void MeasureRanges(const std::vector<WeightedSet>& sets, int num_patches, LiftWeights& weights) {
+  const PatchBatch batch = PatchSampler(sets, {.count = num_patches}, {}, {}, 1).Draw(0);
   weights.descriptor_ranges = MeasureDescriptorRanges(weights, batch.first);
 }
 
@@ -75,21 +74,21 @@ void ScaleMeasured(LiftWeights& weights, DistanceQuantiles& measured, double fac
 
 }  // namespace
 
-void CalibrateDescriptor(const std::vector<WeightedSet>& sets, int batches, double nearest_wrong,
-                         LiftWeights& weights) {
-  weights.distances = MeasureDistances(weights, sets, batches);
+void CalibrateDescriptor(const std::vector<WeightedSet>& sets, const CalibrationSize& size,
+                         double nearest_wrong, LiftWeights& weights) {
+  weights.distances = MeasureDistances(weights, sets, size.batches);
   if (nearest_wrong > 0.0) {
     ScaleMeasured(weights, *weights.distances,
                   nearest_wrong / weights.distances->nearest_wrong[kMedian]);
   }
-  MeasureRanges(sets, weights);
+  MeasureRanges(sets, size.range_patches, weights);
 }
 
 void CarryOverCalibration(const LiftWeights& from, const std::vector<WeightedSet>& sets,
-                          int batches, LiftWeights& weights) {
+                          const CalibrationSize& size, LiftWeights& weights) {
   LiftWeights original = from;
-  const DistanceQuantiles before = MeasureDistances(original, sets, batches);
-  DistanceQuantiles after = MeasureDistances(weights, sets, batches);
+  const DistanceQuantiles before = MeasureDistances(original, sets, size.batches);
+  DistanceQuantiles after = MeasureDistances(weights, sets, size.batches);
   ScaleMeasured(weights, after, before.nearest_wrong[kMedian] / after.nearest_wrong[kMedian]);
   weights.distances = after;
   if (from.distances) {
@@ -98,7 +97,7 @@ void CarryOverCalibration(const LiftWeights& from, const std::vector<WeightedSet
       return (before.*member)[i] > 0.0F ? (after.*member)[i] / (before.*member)[i] : 1.0F;
     });
   }
-  MeasureRanges(sets, weights);
+  MeasureRanges(sets, size.range_patches, weights);
 }
 
 }  // namespace lift_slam::training

@@ -74,7 +74,7 @@ void Calibrate(const CalibrateArguments& arguments) {
         fmt::format("{}: only topology F can be measured here", arguments.weights.string()));
   }
   const auto sets = OpenTrainingSets(fmt::format("{}", fmt::join(arguments.data, " ")));
-  CalibrateDescriptor(sets, arguments.batches, arguments.nearest_wrong, weights);
+  CalibrateDescriptor(sets, {.batches = arguments.batches}, arguments.nearest_wrong, weights);
   WriteLiftWeights(weights, arguments.output.empty() ? arguments.weights : arguments.output);
   std::cout << fmt::format(
       "matching      {:.3f} (5, 25, 50, 75, 95 % of distances)\n"
