@@ -51,8 +51,11 @@ struct LocalMapperOptions {
                   "sightings over expected sightings below which a new point is culled");
     visitor.Field("max_epipolar_error_px", epipolar.max_epipolar_error_px,
                   "distance of a match from the epipolar line, full-size level");
-    visitor.Field("max_descriptor_ratio", epipolar.max_descriptor_ratio,
-                  "nearest over second nearest descriptor distance of a new point's match");
+    visitor.Field(
+        "max_descriptor_ratio", epipolar.max_descriptor_ratio,
+        "nearest over second nearest distance of a new point's match, descriptors of bits");
+    visitor.Field("max_descriptor_ratio_of_floats", epipolar.max_descriptor_ratio_of_floats,
+                  "the same for descriptors of floats (LIFT)");
   }
 };
 

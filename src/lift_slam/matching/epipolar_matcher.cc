@@ -139,6 +139,9 @@ std::vector<FeatureMatch> MatchAlongEpipolarLines(const KeyFrame& a, const KeyFr
                                                   const ViewModel& view,
                                                   const EpipolarMatchOptions& options) {
   const EpipolarGeometry geometry(a, b, min_depth, view);
+  const bool is_binary = a.features->descriptor_kind().metric == DescriptorMetric::kHamming;
+  const auto ratio = static_cast<float>(is_binary ? options.max_descriptor_ratio
+                                                  : options.max_descriptor_ratio_of_floats);
   std::vector<FeatureMatch> matches;
   std::vector<float> distances;
   for (int i = 0; i < a.features->size(); ++i) {
@@ -146,7 +149,6 @@ std::vector<FeatureMatch> MatchAlongEpipolarLines(const KeyFrame& a, const KeyFr
     const auto segment = geometry.SegmentOf(a.features->pixel(i));
     if (!segment) continue;
     const NearestTwo nearest = SearchSegment(a, i, b, geometry, *segment, view, options);
-    const auto ratio = static_cast<float>(options.max_descriptor_ratio);
     if (nearest.best < 0 || b.map_points[Index(nearest.best)].valid() ||
         nearest.best_distance > max_distance || !nearest.IsDistinctive(ratio)) {
       continue;
