@@ -13,7 +13,7 @@ struct EpipolarMatchOptions {
   // what a float descriptor calls distance, and of floats. Looser, crash barriers and road surfaces
   // give LIFT points with the wrong depth that agree with one another (docs/accuracy.md).
   double max_descriptor_ratio = 0.9;
-  double max_descriptor_ratio_of_floats = 0.7;
+  double max_descriptor_ratio_of_floats = 0.8;
   double min_epipole_distance_px = 10.0;  // too near the epipole a point's depth is unknown
 };
 
