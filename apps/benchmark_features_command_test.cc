@@ -47,8 +47,7 @@ TEST_F(BenchmarkFeatures, TablesAndPlotOfAPairAreWritten) {
                               " --tables matching homography --output " + Path("out"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string tables = ReadText(folder_ / "out/features.md");
-  for (const char* part :
-       {"| ORB |", "| SIFT |", "| random upright ", "γ 0.25", "3 px"}) {
+  for (const char* part : {"| ORB |", "| SIFT |", "| random upright ", "γ 0.25", "3 px"}) {
     EXPECT_THAT(tables, HasSubstr(part));
     EXPECT_THAT(outcome.output, HasSubstr(part));
   }

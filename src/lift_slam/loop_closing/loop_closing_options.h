@@ -70,10 +70,10 @@ struct LoopBundleOptions {
 };
 
 struct LoopClosingOptions {
-  bool enabled = true;             // where there is a vocabulary for the features
-  std::string vocabulary;          // file; empty: the one shipped for the features
-  bool relocalisation = true;      // of a lost camera, in all maps of the run
-  bool merging = true;             // of maps that show the same place
+  bool enabled = true;         // where there is a vocabulary for the features
+  std::string vocabulary;      // file; empty: the one shipped for the features
+  bool relocalisation = true;  // of a lost camera, in all maps of the run
+  bool merging = true;         // of maps that show the same place
   // The paper's is L2, which finds fewer places, most of all with LIFT (docs/place_recognition.md).
   BagScore score = BagScore::kL1;
   CandidateSelectionOptions candidates;

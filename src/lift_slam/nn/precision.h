@@ -24,8 +24,9 @@ struct PrecisionChoice {
   std::string reason;  // why it is not what was wanted; empty when it is, and for kAuto
 };
 
-// Never kAuto: the wanted precision, or the next higher one that runs fast on a CPU with these features (names
-// of CpuFeatures() in util/system_info.h). int8 also needs the ranges of the activations.
+// Never kAuto: the wanted precision, or the next higher one that runs fast on a CPU with these
+// features (names of CpuFeatures() in util/system_info.h). int8 also needs the ranges of the
+// activations.
 PrecisionChoice ChoosePrecision(Precision wanted, std::span<const std::string> cpu_features,
                                 bool has_activation_ranges);
 

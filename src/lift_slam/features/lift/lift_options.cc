@@ -8,8 +8,9 @@ void LiftExtractorOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("candidate_ratio", candidate_ratio,
                 "they are spread over the image from this many times as many, the strongest");
   visitor.Group("detector", detector, "maxima of the detector's scores");
-  visitor.Field("precision", precision, nn::kPrecisionNames,
-                "arithmetic of descriptor and orientation, where the CPU has it; auto: the fastest");
+  visitor.Field(
+      "precision", precision, nn::kPrecisionNames,
+      "arithmetic of descriptor and orientation, where the CPU has it; auto: the fastest");
   visitor.Field("upright", upright, "patches are not turned (no orientation network)");
   visitor.Field("sigma_px", sigma_px, "noise of the position of a keypoint of sigma 1");
   visitor.Field("low_threshold", low_threshold,
