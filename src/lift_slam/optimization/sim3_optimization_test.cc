@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lift_slam/optimization/cost_functions/sim3_reprojection_cost.h"
 #include "lift_slam/optimization/so3.h"
 #include "lift_slam/testing/sim3_scene.h"
 
@@ -27,6 +28,20 @@ Sim3OptimizationResult Optimize(const Sim3Scene& scene, const Sim3d& initial,
 
 double Angle(const Sim3d& a, const Sim3d& b) {
   return RotationAngle(a.rotation * b.rotation.conjugate());
+}
+
+TEST(Sim3ReprojectionCost, AScaleFarAstrayIsRefusedNotEvaluatedToNan) {
+  const PinholeIntrinsics pinhole{400.0, 400.0, 320.0, 240.0, 640, 480};
+  const Sim3d base{1.0, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero()};
+  const Sim3ReprojectionCost cost(pinhole, base, Sim3ReprojectionCost::Direction::kBackward,
+                                  {0.1, 0.2, 3.0}, {330.0, 250.0}, 1.0);
+  double residuals[2];
+  double change[kSim3Parameters] = {};
+  EXPECT_TRUE(cost(change, residuals));
+  for (const double log_scale : {-77827.0, -21.0, 21.0, 1e5}) {
+    change[kSim3Parameters - 1] = log_scale;
+    EXPECT_FALSE(cost(change, residuals)) << log_scale;
+  }
 }
 
 TEST(OptimizeSim3, RecoversTheSimilarityExactlyWithoutNoise) {

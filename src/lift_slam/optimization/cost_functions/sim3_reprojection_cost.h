@@ -10,7 +10,8 @@ namespace lift_slam {
 
 // Residuals: inverse_sigma (Project(x) - pixel), 2, of a point that a similarity brings into the
 // camera. kForward: x = S * point with S = change * base; kBackward: x = S^-1 * point. A point
-// behind the camera has constant residuals of 100 sigmas, which make a solver take back the step.
+// behind the camera has constant residuals of 100 sigmas, which make a solver take back the step; a
+// scale changed by more than exp(20) cannot be evaluated, to the same effect.
 // Parameter block: [0] change of the similarity (7), see sim3_parameters.h.
 class Sim3ReprojectionCost {
  public:
@@ -33,6 +34,8 @@ class Sim3ReprojectionCost {
 
   template <class T>
   bool operator()(const T* parameters, T* residuals) const {
+    const T& log_scale = parameters[kSim3Parameters - 1];
+    if (!(log_scale > T(-kMaxLogScale) && log_scale < T(kMaxLogScale))) return false;
     const GenericSim3<T> similarity = Sim3FromParameters(parameters) * Cast<T>(base_);
     const Eigen::Matrix<T, 3, 1> point = point_.cast<T>();
     const Eigen::Matrix<T, 3, 1> x =
@@ -50,6 +53,7 @@ class Sim3ReprojectionCost {
 
  private:
   static constexpr double kBehindSigmas = 100.0;
+  static constexpr double kMaxLogScale = 20.0;  // beyond: a step astray, whose inverse is infinite
 
   PinholeIntrinsics intrinsics_;
   Sim3d base_;
