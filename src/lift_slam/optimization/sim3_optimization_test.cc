@@ -39,7 +39,7 @@ TEST(Sim3ReprojectionCost, AScaleFarAstrayIsRefusedNotEvaluatedToNan) {
   double change[kSim3Parameters] = {};
   EXPECT_TRUE(cost(change, residuals));
   for (const double log_scale : {-77827.0, -21.0, 21.0, 1e5}) {
-    change[kSim3Parameters - 1] = log_scale;
+    change[kLogScaleParameter] = log_scale;
     EXPECT_FALSE(cost(change, residuals)) << log_scale;
   }
 }

@@ -34,7 +34,7 @@ class Sim3ReprojectionCost {
 
   template <class T>
   bool operator()(const T* parameters, T* residuals) const {
-    const T& log_scale = parameters[kSim3Parameters - 1];
+    const T& log_scale = parameters[kLogScaleParameter];
     if (!(log_scale > T(-kMaxLogScale) && log_scale < T(kMaxLogScale))) return false;
     const GenericSim3<T> similarity = Sim3FromParameters(parameters) * Cast<T>(base_);
     const Eigen::Matrix<T, 3, 1> point = point_.cast<T>();
