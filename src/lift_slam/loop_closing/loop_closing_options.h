@@ -20,8 +20,8 @@ struct PlaceVerificationOptions {
   // placed roughly, and comes nearer when it is the same way.
   double max_offset_ratio = 1.0;
   int min_projected = 70;  // features that show a point of the place; false ones reached 61
-  // PlaceMatch::mutual_ratio: within 5 m of the place it is 0.7 to 1.2, seldom 0.62 (ORB and LIFT on
-  // rendered drives); where the same walls and boards stand elsewhere up to 0.66.
+  // PlaceMatch::mutual_ratio: within 5 m of the place it is 0.7 to 1.2, seldom 0.62 (ORB and LIFT
+  // on rendered drives); where the same walls and boards stand elsewhere up to 0.66.
   double min_mutual_ratio = 0.7;
   int confirming_keyframes = 5;       // covisible keyframes of the query that should see the place
   int min_confirming = 2;             // of these
