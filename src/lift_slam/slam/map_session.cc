@@ -134,7 +134,7 @@ void MapSession::Finish(const PreparedFrame& prepared, Frame& frame, Step& step)
 void MapSession::InsertKeyFrame(const GrayImage& image, Frame& frame, Step& step) {
   const KeyFrameId keyframe = map_->AddKeyFrame(frame);
   has_new_keyframes_ = true;
-  step.mapping = mapper_.Process(keyframe, tracker_.Thresholds(*map_).low, *map_);
+  step.mapping = mapper_.Process(keyframe, tracker_.MappingThresholds(*map_).low, *map_);
   RememberGray(keyframe, image);
   tracker_.KeyFrameMapped(*map_, keyframe);
   if (loop_closer_) {

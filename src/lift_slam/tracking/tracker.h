@@ -60,12 +60,16 @@ class Tracker {
   // frame were multiplied by `scale`.
   void MapCorrected(const Map& map, KeyFrameId keyframe, double scale);
 
-  // As they stand for the next frame and for mapping.
-  MatchingThresholds Thresholds(const Map& map) const {
-    return adaptive_.In(map.view().thresholds, matching_.thresholds);
+  // Those that new map points are made with: never loose, as a wrong point has nothing yet that
+  // speaks against it, and one followed along a repeated texture takes the scale with it.
+  MatchingThresholds MappingThresholds(const Map& map) const {
+    return AdaptiveThresholds{}.In(map.view().thresholds, matching_.thresholds);
   }
 
  private:
+  MatchingThresholds Thresholds(const Map& map) const {
+    return adaptive_.In(map.view().thresholds, matching_.thresholds);
+  }
   bool TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) const;
   bool TrackReferenceKeyFrame(const Map& map, Frame& frame) const;
   bool Recover(const Map& map, Frame& frame) const;

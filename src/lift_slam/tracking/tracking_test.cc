@@ -56,6 +56,28 @@ TEST_F(TrackingTest, AJumpIsBridgedByTheReferenceKeyFrame) {
   EXPECT_THAT(frame.cam_from_world, Rigid3dNear(truth, 0.1, 0.01));
 }
 
+TEST_F(TrackingTest, NewPointsAreMadeStrictlyWhenTrackingIsLoose) {
+  auto view = std::make_shared<ViewModel>(*scene_.view());
+  view->thresholds = {{50.0F, 100.0F}, {50.0F, 100.0F}, {65.0F, 115.0F}};
+  Map map(view);
+  scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map);
+  Frame last = scene_.MakeFrame(1, CameraAt(0.2));
+  last.map_points = map.keyframe(map.newest_keyframe()).map_points;
+  MatchingOptions matching;
+  matching.few = kPoints;  // Never plenty: loose after the first frame.
+  matching.plenty = 2 * kPoints;
+  Tracker tracker({}, matching, 0);
+  tracker.Start(map, last, std::nullopt);
+  TrackingResult result;
+  for (int k = 0; k < 3; ++k) {
+    Frame frame = scene_.MakeFrame(2 + k, CameraAt(0.2 + 0.01 * k), 0.3);
+    result = tracker.Track(map, frame);
+    ASSERT_EQ(result.refusal, FrameRefusal::kNone);
+  }
+  EXPECT_EQ(result.thresholds.low, 65.0F);
+  EXPECT_EQ(tracker.MappingThresholds(map).low, 50.0F);
+}
+
 TEST_F(TrackingTest, AnotherSceneIsRefusedWithAReasonAndLeavesNoMatches) {
   scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
   Frame last = scene_.MakeFrame(1, CameraAt(0.2));
