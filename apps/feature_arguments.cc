@@ -4,9 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "lift_slam/features/lift/default_weights.h"
-#include "lift_slam/features/lift/lift_extractor.h"
-#include "lift_slam/features/orb/orb_extractor.h"
+#include "lift_slam/slam/feature_options.h"
 #include "lift_slam/util/input_error.h"
 
 namespace lift_slam {
@@ -20,6 +18,8 @@ void FeatureArguments::AddTo(CLI::App& command) {
       ->capture_default_str();
   command.add_flag("--upright,!--turned", upright,
                    "LIFT's patches are not turned (default), or turned by the orientation network");
+  command.add_option("--feature-cache", feature_cache,
+                     "Folder that keeps LIFT's features: further commands and runs find them there");
   command.add_option("--threads", num_threads, "Threads")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
@@ -29,17 +29,14 @@ std::unique_ptr<FeatureExtractor> FeatureArguments::MakeExtractor() const {
   const bool is_lift = features == "lift" || (features.empty() && !weights.empty());
   if (!is_lift && !weights.empty())
     throw InputError("ORB features have no weights: leave --weights out");
-  if (!is_lift) {
-    OrbOptions options;
-    options.max_features = max_features;
-    options.num_threads = num_threads;
-    return CreateOrbExtractor(options);
-  }
-  LiftExtractorOptions options;
-  if (max_features > 0) options.max_features = max_features;
-  options.upright = upright;
-  options.num_threads = num_threads;
-  return CreateLiftExtractor(ReadLiftWeightsOrDefault(weights), options);
+  FeatureOptions options;
+  options.type = is_lift ? FeatureType::kLift : FeatureType::kOrb;
+  options.lift_weights = weights.string();
+  if (max_features > 0) options.lift.max_features = options.orb.max_features = max_features;
+  options.lift.upright = upright;
+  options.lift.num_threads = options.orb.num_threads = num_threads;
+  return CreateFeatureExtractor(
+      options, feature_cache.empty() ? nullptr : std::make_shared<FeatureCache>(feature_cache));
 }
 
 std::string FeatureArguments::Key(const DescriptorKind& kind) const {
