@@ -368,6 +368,12 @@ TEST_F(BenchmarkCommand, SequencesOfOneNameAreToldApart) {
   EXPECT_THAT(plan, HasSubstr("\"sequence\": \"hills\""));
 }
 
+TEST_F(BenchmarkCommand, TwoSystemsOfOneTitleAreRefused) {
+  Render(SequenceLayout::kKittiOdometry, 12);
+  ExpectOneSentence(RunProgram(Arguments("shared", "lift_slam.kitti lift_slam.euroc")),
+                    {"lift_slam.euroc.yaml", "have the title 'LIFT-SLAM'", "# title:"});
+}
+
 TEST_F(BenchmarkCommand, BadArgumentsAreExplained) {
   fs::create_directories(folder_ / "data");
   ExpectOneSentence(RunProgram(Arguments("kiti")), {"suite 'kiti' is unknown", "robustness"});

@@ -128,7 +128,7 @@ class PlanMaker {
 
   void AddSystem(const std::string& name, const BenchmarkSequence& sequence) {
     const BenchmarkSystem system = FindSystem(name, sequence.dataset);
-    if (!Contains(plan_.titles, system.title)) plan_.titles.push_back(system.title);
+    AddTitle(system);
     if (sequence.folder.empty()) return;
     if (Contains(system.skipped_sequences, sequence.name)) {
       plan_.skipped.push_back(system.title + "|" + sequence.name);
@@ -147,6 +147,17 @@ class PlanMaker {
       return;
     }
     AddJobs(system, sequence, options, weights);
+  }
+
+  // Tables tell systems apart by their titles.
+  void AddTitle(const BenchmarkSystem& system) {
+    const auto [entry, is_new] = name_of_title_.emplace(system.title, system.name);
+    if (is_new) plan_.titles.push_back(system.title);
+    if (entry->second == system.name) return;
+    throw InputError(
+        fmt::format("{}: the systems {} and {} both have the title '{}', so no table could tell "
+                    "them apart: change one's '# title:' line or leave it out",
+                    system.config.string(), entry->second, system.name, system.title));
   }
 
   void AddJobs(const BenchmarkSystem& system, const BenchmarkSequence& sequence,
@@ -195,6 +206,7 @@ class PlanMaker {
 
   const BenchmarkRequest& request_;
   std::optional<BenchmarkVariants> variants_;  // of the ablation
+  std::map<std::string, std::string> name_of_title_;
   BenchmarkPlan plan_;
   const std::string program_ = ProgramIdentity();
   std::map<fs::path, std::string> weight_hashes_, sequence_identities_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -21,7 +22,23 @@ constexpr double kScaleTolerance = 1.3;
 
 Sim3d AsSimilarity(const Rigid3d& pose) { return {1.0, pose.rotation, pose.translation}; }
 
+// Relative error of a depth on which two maps agree at best, however wide the views are apart.
+constexpr double kMinLogDepthSigma = 0.02;
+
 double FocalLength(const Map& map) { return 0.5 * (map.view().pinhole.fx + map.view().pinhole.fy); }
+
+// Of the logarithm of a point's depth: the noise of a pixel over the widest angle between the ray
+// from a keyframe that sees the point, or would, and those of its observers.
+double LogDepthSigma(const Map& map, const MapPoint& point, const Eigen::Vector3d& center) {
+  const Eigen::Vector3d ray = (point.position - center).normalized();
+  double widest = 0.0;
+  for (const MapPoint::Observation& seen : point.observations) {
+    const Eigen::Vector3d other =
+        (point.position - map.keyframe(seen.keyframe).cam_from_world.TargetOriginInSource()).normalized();
+    widest = std::max(widest, ray.cross(other).norm());
+  }
+  return widest > 0.0 ? 1.0 / (FocalLength(map) * widest) : std::numeric_limits<double>::infinity();
+}
 
 // Works with one query and one candidate; "place" is the candidate's window.
 class Verifier {
@@ -101,6 +118,10 @@ class Verifier {
       o.inverse_variance1 =
           query_.map.view().InverseVariance(keyframe_.features->level(feature), false);
       SetPixelOfCandidate(*other, o);
+      o.log_depth_sigma = std::hypot(
+          kMinLogDepthSigma,
+          LogDepthSigma(query_.map, *own, keyframe_.cam_from_world.TargetOriginInSource()),
+          LogDepthSigma(candidate_.map, *other, candidate_from_world_.TargetOriginInSource()));
       correspondences.push_back({i, o});
     }
     return correspondences;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lift_slam/optimization/cost_functions/sim3_depth_cost.h"
 #include "lift_slam/optimization/cost_functions/sim3_reprojection_cost.h"
 #include "lift_slam/optimization/min_depth.h"
 
@@ -18,6 +19,8 @@ namespace {
 
 using Direction = Sim3ReprojectionCost::Direction;
 constexpr int kMinInliers = 3;
+// Depths off by more sigmas than this hardly count: of two maps many are rough.
+constexpr double kDepthLossSigmas = 2.0;
 
 double SquaredError(const PinholeIntrinsics& intrinsics, const Eigen::Vector3d& x_in_cam,
                     const Eigen::Vector2d& pixel, double inverse_variance) {
@@ -93,6 +96,11 @@ class Sim3Optimizer {
                                          o.pixel2, std::sqrt(o.inverse_variance2));
     problem.AddResidualBlock(Sim3ReprojectionCost::Create(in_image1), loss(), change.data());
     problem.AddResidualBlock(Sim3ReprojectionCost::Create(in_image2), loss(), change.data());
+    if (scale_fit_ == ScaleFit::kFixed || !(o.log_depth_sigma > 0.0)) return;
+    const Sim3DepthCost depth(base, o.point_in_cam2, std::log(o.point_in_cam1.z()),
+                              1.0 / o.log_depth_sigma);
+    problem.AddResidualBlock(Sim3DepthCost::Create(depth),
+                             new ceres::CauchyLoss(kDepthLossSigmas), change.data());
   }
 
   const PinholeIntrinsics& intrinsics1_;

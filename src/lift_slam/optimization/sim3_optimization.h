@@ -17,6 +17,9 @@ struct Sim3Observation {
   Eigen::Vector3d point_in_cam1, point_in_cam2;             // held fixed
   Eigen::Vector2d pixel1, pixel2;                           // undistorted
   double inverse_variance1 = 1.0, inverse_variance2 = 1.0;  // 1 / px^2, of x and of y
+  // Standard deviation of log(depth in the second map / depth in the first), in camera 1; 0: the
+  // depths say nothing of the scale.
+  double log_depth_sigma = 0.0;
 };
 
 struct Sim3OptimizationOptions {
@@ -41,7 +44,8 @@ struct Sim3OptimizationResult {
 };
 
 // The similarity that minimises the squared weighted errors of both cameras' points, each in the
-// other's image (ORB-SLAM sec. VII-B). kFixed keeps the initial scale. With fewer than 3 inliers
+// other's image (ORB-SLAM sec. VII-B), and of both maps' depths, with a Cauchy loss. kFixed keeps the
+// initial scale and leaves the depths out. With fewer than 3 inliers
 // the similarity is undetermined: the result is the initial one with the inliers under it. Same
 // input, same bits.
 Sim3OptimizationResult OptimizeSim3(const PinholeIntrinsics& intrinsics1,

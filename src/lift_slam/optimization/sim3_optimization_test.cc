@@ -75,6 +75,20 @@ TEST(OptimizeSim3, IsBetterThanWhereItBegan) {
             0.1 * Angle(initial, scene.cam1_from_cam2));
 }
 
+// Where both cameras stand at one place, images say nothing of the scale; depths do.
+TEST(OptimizeSim3, DepthsGiveTheScaleWhereTheCamerasCoincide) {
+  const Sim3Scene scene =
+      MakeSim3Scene({.depth_noise = 0.05, .outlier_ratio = 0.3, .offset = 0.0});
+  const Sim3d initial = Disturbed(scene.cam1_from_cam2, 1.2);
+  const auto scale_with = [&](double log_depth_sigma) {
+    std::vector<Sim3Observation> observations = Observations(scene);
+    for (Sim3Observation& o : observations) o.log_depth_sigma = log_depth_sigma;
+    return OptimizeSim3(scene.pinhole, scene.pinhole, initial, observations).cam1_from_cam2.scale;
+  };
+  EXPECT_NEAR(scale_with(0.07), 2.5, 0.05);
+  EXPECT_GT(std::abs(scale_with(0.0) - 2.5), 0.1);
+}
+
 TEST(OptimizeSim3, FixedScaleStaysAsItWas) {
   const Sim3Scene scene = MakeSim3Scene({.scale = 1.0});
   const auto result = Optimize(scene, Disturbed(scene.cam1_from_cam2, 1.0), ScaleFit::kFixed);

@@ -73,7 +73,9 @@ struct PlaceEvent {
   int num_word_matches = 0, num_inliers = 0, num_projected = 0, num_confirming = 0;
   // See PlaceMatch.
   double found_ratio = 0.0, own_found_ratio = 0.0, mutual_ratio = 0.0, offset_ratio = 0.0;
-  double scale = 1.0;  // by which a closed loop changed lengths at this frame
+  // By which a closed loop changed lengths at this frame; of a merge, lengths of the earlier map
+  // over those of this frame's.
+  double scale = 1.0;
 };
 
 // A frame picture with its tracked points, for the report.

@@ -15,6 +15,7 @@ struct Sim3SceneOptions {
   double depth_noise = 0.0;    // relative, of each map point along its ray
   double outlier_ratio = 0.0;  // matches of different places
   double scale = 2.5;          // of cam1_from_cam2
+  double offset = 1.0;         // of the cameras, over the usual; 0: both at one place
   std::uint64_t seed = 1;
 };
 
@@ -39,7 +40,7 @@ inline Sim3Scene MakeSim3Scene(const Sim3SceneOptions& options) {
   scene.cam1_from_cam2 = Sim3d(
       options.scale,
       Eigen::Quaterniond(Eigen::AngleAxisd(0.35, Eigen::Vector3d(0.2, 1.0, 0.1).normalized())),
-      {-3.0, 0.2, 0.8});
+      options.offset * Eigen::Vector3d(-3.0, 0.2, 0.8));
   const Sim3d cam2_from_cam1 = Inverse(scene.cam1_from_cam2);
   const auto noisy_pixel = [&](const Eigen::Vector3d& point) -> Eigen::Vector2d {
     const double x = random.Normal(), y = random.Normal();

@@ -40,6 +40,16 @@ GenericSim3<T> Cast(const Sim3d& similarity) {
 inline constexpr int kSim3Parameters = 7;
 inline constexpr int kLogScaleParameter = 6;
 
+// Constant residual of a point behind the camera, which makes a solver take back the step.
+inline constexpr double kSim3BehindSigmas = 100.0;
+
+// Whether a change of scale can be evaluated: farther astray its inverse is infinite.
+template <class T>
+bool IsScaleNear(const T& log_scale) {
+  constexpr double kMaxLogScale = 20.0;
+  return log_scale > T(-kMaxLogScale) && log_scale < T(kMaxLogScale);
+}
+
 template <class T>
 GenericSim3<T> Sim3FromParameters(const T* parameters) {
   using std::exp;

@@ -34,14 +34,13 @@ class Sim3ReprojectionCost {
 
   template <class T>
   bool operator()(const T* parameters, T* residuals) const {
-    const T& log_scale = parameters[kLogScaleParameter];
-    if (!(log_scale > T(-kMaxLogScale) && log_scale < T(kMaxLogScale))) return false;
+    if (!IsScaleNear(parameters[kLogScaleParameter])) return false;
     const GenericSim3<T> similarity = Sim3FromParameters(parameters) * Cast<T>(base_);
     const Eigen::Matrix<T, 3, 1> point = point_.cast<T>();
     const Eigen::Matrix<T, 3, 1> x =
         direction_ == Direction::kForward ? similarity * point : similarity.Inverse() * point;
     if (!(x.z() > T(kMinDepth))) {
-      residuals[0] = residuals[1] = T(kBehindSigmas);
+      residuals[0] = residuals[1] = T(kSim3BehindSigmas);
       return true;
     }
     residuals[0] =
@@ -52,9 +51,6 @@ class Sim3ReprojectionCost {
   }
 
  private:
-  static constexpr double kBehindSigmas = 100.0;
-  static constexpr double kMaxLogScale = 20.0;  // beyond: a step astray, whose inverse is infinite
-
   PinholeIntrinsics intrinsics_;
   Sim3d base_;
   Direction direction_;
