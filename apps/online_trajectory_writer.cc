@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+#include <string>
+#include <utility>
+
 #include "lift_slam/geometry/trajectory_io.h"
 #include "lift_slam/util/input_error.h"
 
@@ -14,8 +18,12 @@ OnlineTrajectoryWriter::OnlineTrajectoryWriter(const std::filesystem::path& path
 
 void OnlineTrajectoryWriter::Append(const TrajectoryPose& pose) {
   if (pose.state != PoseState::kOk) return;
-  WriteTrajectory({pose}, TrajectoryFormat::kTum, stream_);
+  std::ostringstream text;
+  WriteTrajectory({pose}, TrajectoryFormat::kTum, text);
+  const std::string lines = std::move(text).str();
+  stream_ << (has_header_ ? lines.substr(lines.find('\n') + 1) : lines);
   stream_.flush();
+  has_header_ = true;
   if (!stream_) {
     throw InputError(fmt::format("{}: cannot write the file (disk full?)", path_.string()));
   }

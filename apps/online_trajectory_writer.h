@@ -22,6 +22,7 @@ class OnlineTrajectoryWriter {
  private:
   std::filesystem::path path_;
   std::ofstream stream_;
+  bool has_header_ = false;
 };
 
 }  // namespace lift_slam

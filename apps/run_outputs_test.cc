@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -186,6 +187,8 @@ TEST_F(RunOutputs, OnlineTrajectoryCanBeReadWhileTheRunGoesOn) {
     ASSERT_EQ(so_far.size(), num_poses);
     EXPECT_EQ(so_far.back().timestamp_ns, pose.timestamp_ns);
   }
+  const std::string text = ReadText(folder_ / "trajectory_online.tum");
+  EXPECT_EQ(std::ranges::count(text, '#'), 1);
 }
 
 TEST_F(RunOutputs, OnlineTrajectoryOnAFullDiskIsAnInputError) {

@@ -34,7 +34,8 @@ double LogDepthSigma(const Map& map, const MapPoint& point, const Eigen::Vector3
   double widest = 0.0;
   for (const MapPoint::Observation& seen : point.observations) {
     const Eigen::Vector3d other =
-        (point.position - map.keyframe(seen.keyframe).cam_from_world.TargetOriginInSource()).normalized();
+        (point.position - map.keyframe(seen.keyframe).cam_from_world.TargetOriginInSource())
+            .normalized();
     widest = std::max(widest, ray.cross(other).norm());
   }
   return widest > 0.0 ? 1.0 / (FocalLength(map) * widest) : std::numeric_limits<double>::infinity();

@@ -99,8 +99,8 @@ class Sim3Optimizer {
     if (scale_fit_ == ScaleFit::kFixed || !(o.log_depth_sigma > 0.0)) return;
     const Sim3DepthCost depth(base, o.point_in_cam2, std::log(o.point_in_cam1.z()),
                               1.0 / o.log_depth_sigma);
-    problem.AddResidualBlock(Sim3DepthCost::Create(depth),
-                             new ceres::CauchyLoss(kDepthLossSigmas), change.data());
+    problem.AddResidualBlock(Sim3DepthCost::Create(depth), new ceres::CauchyLoss(kDepthLossSigmas),
+                             change.data());
   }
 
   const PinholeIntrinsics& intrinsics1_;

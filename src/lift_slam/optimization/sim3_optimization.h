@@ -44,10 +44,9 @@ struct Sim3OptimizationResult {
 };
 
 // The similarity that minimises the squared weighted errors of both cameras' points, each in the
-// other's image (ORB-SLAM sec. VII-B), and of both maps' depths, with a Cauchy loss. kFixed keeps the
-// initial scale and leaves the depths out. With fewer than 3 inliers
-// the similarity is undetermined: the result is the initial one with the inliers under it. Same
-// input, same bits.
+// other's image (ORB-SLAM sec. VII-B), and of both maps' depths, with a Cauchy loss. kFixed keeps
+// the initial scale and leaves the depths out. With fewer than 3 inliers the similarity is
+// undetermined: the result is the initial one with the inliers under it. Same input, same bits.
 Sim3OptimizationResult OptimizeSim3(const PinholeIntrinsics& intrinsics1,
                                     const PinholeIntrinsics& intrinsics2,
                                     const Sim3d& initial_cam1_from_cam2,

@@ -77,8 +77,7 @@ TEST(OptimizeSim3, IsBetterThanWhereItBegan) {
 
 // Where both cameras stand at one place, images say nothing of the scale; depths do.
 TEST(OptimizeSim3, DepthsGiveTheScaleWhereTheCamerasCoincide) {
-  const Sim3Scene scene =
-      MakeSim3Scene({.depth_noise = 0.05, .outlier_ratio = 0.3, .offset = 0.0});
+  const Sim3Scene scene = MakeSim3Scene({.depth_noise = 0.05, .outlier_ratio = 0.3, .offset = 0.0});
   const Sim3d initial = Disturbed(scene.cam1_from_cam2, 1.2);
   const auto scale_with = [&](double log_depth_sigma) {
     std::vector<Sim3Observation> observations = Observations(scene);

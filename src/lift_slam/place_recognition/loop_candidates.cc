@@ -87,12 +87,12 @@ double LeastCovisibleScore(const BagOfWords& query, std::span<const BagOfWords* 
 }
 
 std::vector<CandidateVerdict> SelectCandidates(std::span<const PlaceCandidate> candidates,
-                                               double min_score,
+                                               double least_covisible_score,
                                                const CovisibleKeyframes& covisible,
                                                const CandidateSelectionOptions& options) {
   std::vector<CandidateVerdict> verdicts;
   for (const PlaceCandidate& candidate : candidates) verdicts.push_back({candidate});
-  RejectByWordsAndScore(min_score, options, verdicts);
+  RejectByWordsAndScore(options.min_score_ratio * least_covisible_score, options, verdicts);
   const std::vector<Group> groups = MakeGroups(verdicts, covisible, options.group_size);
   double best_score = 0.0;
   for (const Group& group : groups) best_score = std::max(best_score, group.score);
@@ -173,6 +173,8 @@ std::string_view Explain(CandidateRejection rejection) {
 void CandidateSelectionOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("min_common_words_ratio", min_common_words_ratio,
                 "least common words, of the most of any candidate");
+  visitor.Field("min_score_ratio", min_score_ratio,
+                "least score of a candidate, of that among covisible keyframes of the query");
   visitor.Field("min_group_score_ratio", min_group_score_ratio,
                 "least accumulated score of a covisibility group, of the best");
   visitor.Field("group_size", group_size, "covisible keyframes that score with a candidate");

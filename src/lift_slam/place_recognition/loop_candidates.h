@@ -36,6 +36,9 @@ std::string_view Explain(CandidateRejection rejection);
 
 struct CandidateSelectionOptions {
   double min_common_words_ratio = 0.8;  // of the most common words of any candidate
+  // Of the least score among the covisible keyframes of the query (ORB-SLAM: 1). They are seen in
+  // the same light; a place seen in other light scores a third of it, and geometry decides.
+  double min_score_ratio = 0.3;
   double min_group_score_ratio = 0.75;  // of the best group's accumulated score
   int group_size = 10;                  // best covisible keyframes that score with a candidate
   // Keyframes in a row that must recognise the same group of covisible keyframes; 1: at once, to be
@@ -53,17 +56,17 @@ struct CandidateVerdict {
   CandidateRejection rejection = CandidateRejection::kAccepted;
 };
 
-// The least score between the query and its covisible keyframes' bags: what is less alike than they
-// are is no loop. Calibrates itself to the scene and the vocabulary. 0 without neighbours; nullptr
-// entries are passed over.
+// The least score between the query and its covisible keyframes' bags, by which the least score of
+// a loop calibrates itself to the scene and the vocabulary. 0 without neighbours; nullptr entries
+// are passed over.
 double LeastCovisibleScore(const BagOfWords& query, std::span<const BagOfWords* const> covisible,
                            BagScore score);
 
-// Filters by common words and `min_score`, accumulates scores over covisibility groups, and keeps
-// the best of each strong group. One verdict a candidate, in their order; accepted ones have yet to
-// be consistent. With min_score 0 the selection for relocalisation.
+// Filters by common words and score, accumulates scores over covisibility groups, and keeps the
+// best of each strong group. One verdict a candidate, in their order; accepted ones have yet to be
+// consistent. With a least covisible score of 0 the selection for relocalisation.
 std::vector<CandidateVerdict> SelectCandidates(std::span<const PlaceCandidate> candidates,
-                                               double min_score,
+                                               double least_covisible_score,
                                                const CovisibleKeyframes& covisible,
                                                const CandidateSelectionOptions& options);
 

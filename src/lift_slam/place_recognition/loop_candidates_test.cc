@@ -42,11 +42,19 @@ TEST(SelectCandidates, EveryReasonHasItsCase) {
       {12, 85, 0.10},   // too little alike, but scores for the group
       {13, 50, 0.60},   // too few words
   };
-  const auto verdicts = SelectCandidates(candidates, 0.2, Chain, {});
+  CandidateSelectionOptions options;
+  options.min_score_ratio = 1.0;
+  const auto verdicts = SelectCandidates(candidates, 0.2, Chain, options);
   EXPECT_THAT(Rejections(verdicts),
               ElementsAre(kAccepted, kNotBestOfGroup, kWeakGroup, kLowScore, kFewCommonWords));
   EXPECT_NEAR(verdicts[0].group_score, 0.5 + 0.4 + 0.1, 1e-12);
   EXPECT_EQ(verdicts[3].group_score, 0.0);
+}
+
+TEST(SelectCandidates, APlaceInOtherLightMayScoreAThirdOfTheCovisible) {
+  const std::vector<PlaceCandidate> candidates = {{10, 100, 0.07}, {50, 100, 0.05}};
+  EXPECT_THAT(Rejections(SelectCandidates(candidates, 0.2, Chain, {})),
+              ElementsAre(kAccepted, kLowScore));
 }
 
 TEST(SelectCandidates, TwoPlacesThatAreEquallyAlikeAreBothKept) {

@@ -29,8 +29,8 @@ class Sim3DepthCost {
     if (!IsScaleNear(parameters[kLogScaleParameter])) return false;
     const Eigen::Matrix<T, 3, 1> point = point_.cast<T>();
     const T depth = (Sim3FromParameters(parameters) * Cast<T>(base_) * point).z();
-    residuals[0] = depth > T(kMinDepth) ? T((log(depth) - log_depth_) * inverse_sigma_)
-                                        : T(kSim3BehindSigmas);
+    residuals[0] =
+        depth > T(kMinDepth) ? T((log(depth) - log_depth_) * inverse_sigma_) : T(kSim3BehindSigmas);
     return true;
   }
 
