@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lift_slam/geometry/absolute_pose.h"
+#include "lift_slam/geometry/triangulation.h"
 #include "lift_slam/loop_closing/place_sighting.h"
 #include "lift_slam/loop_closing/word_matching.h"
 #include "lift_slam/optimization/pose_graph.h"
@@ -30,13 +31,11 @@ double FocalLength(const Map& map) { return 0.5 * (map.view().pinhole.fx + map.v
 // Of the logarithm of a point's depth: the noise of a pixel over the widest angle between the ray
 // from a keyframe that sees the point, or would, and those of its observers.
 double LogDepthSigma(const Map& map, const MapPoint& point, const Eigen::Vector3d& center) {
-  const Eigen::Vector3d ray = (point.position - center).normalized();
   double widest = 0.0;
   for (const MapPoint::Observation& seen : point.observations) {
-    const Eigen::Vector3d other =
-        (point.position - map.keyframe(seen.keyframe).cam_from_world.TargetOriginInSource())
-            .normalized();
-    widest = std::max(widest, ray.cross(other).norm());
+    const Rigid3d& observer = map.keyframe(seen.keyframe).cam_from_world;
+    widest =
+        std::max(widest, ParallaxAngle(center, observer.TargetOriginInSource(), point.position));
   }
   return widest > 0.0 ? 1.0 / (FocalLength(map) * widest) : std::numeric_limits<double>::infinity();
 }

@@ -142,10 +142,10 @@ void MapCollection::RecordReport(const LoopReport& report, const MapSession& oth
     event.mutual_ratio = match.mutual_ratio;
     event.offset_ratio = match.offset_ratio;
     event.num_confirming = match.num_confirming;
-    if (kind == PlaceEventKind::kMerge) {
-      event.scale = 1.0 / match.query_from_candidate_world.scale;
-    } else if (report.correction && is_accepted) {
-      event.scale = report.correction->scale_of_keyframe[attempt.edge.query.index()];
+    if (is_accepted) {
+      event.scale = report.correction
+                        ? report.correction->scale_of_keyframe[attempt.edge.query.index()]
+                        : 1.0 / match.query_from_candidate_world.scale;
     }
     record_.place_events.push_back(event);
   }
