@@ -38,6 +38,22 @@ TEST_F(RunCommand, BothModesAndARepeatedRunGiveTheSameBytes) {
   EXPECT_EQ(first, trajectory("--mode threaded --seed 3"));
 }
 
+// A compressed video of 930 x 282 pixels over the steepest crest of the track, where features are
+// few.
+TEST_F(RunCommand, TheDemosClipIsNotLostOverItsCrest) {
+#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "takes minutes in a debug build or under a sanitizer";
+#endif
+  const char* source = std::getenv("LIFT_SLAM_SOURCE_DIR");
+  const fs::path demo = fs::path(source != nullptr ? source : ".") / "demo";
+  const auto json = ExpectAllOutputs(
+      Run(demo / "dirt-3.mp4",
+          fmt::format("--camera {} --frames 250:450:1", (demo / "dirt-3.yaml").string())),
+      0);
+  EXPECT_EQ(json["coverage"]["coverage"], 1.0);
+  EXPECT_EQ(json["coverage"]["maps"], 1);
+}
+
 TEST_F(RunCommand, WithoutAVocabularyForTheFeaturesTheRunSaysSoAndGoesOn) {
   fs::create_directories(folder_ / "none");
   setenv("LIFT_SLAM_VOCABULARY_DIR", (folder_ / "none").c_str(), 1);

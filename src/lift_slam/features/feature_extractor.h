@@ -36,6 +36,8 @@ struct ThresholdRange {
   MatchingThresholds fixed;   // where they stay when nothing adapts them
   MatchingThresholds strict;  // the least: matches are plentiful
   MatchingThresholds loose;   // the most: tracking is about to be lost
+  // Whether new map points are made with the moved TH_LOW too, or always with the strict one.
+  bool moves_new_points = true;
 };
 
 // Finds and describes features. One object serves one thread.

@@ -60,10 +60,11 @@ class Tracker {
   // frame were multiplied by `scale`.
   void MapCorrected(const Map& map, KeyFrameId keyframe, double scale);
 
-  // Those that new map points are made with: never loose, as a wrong point has nothing yet that
-  // speaks against it, and one followed along a repeated texture takes the scale with it.
+  // Those that new map points are made with.
   MatchingThresholds MappingThresholds(const Map& map) const {
-    return AdaptiveThresholds{}.In(map.view().thresholds, matching_.thresholds);
+    const ThresholdRange& range = map.view().thresholds;
+    const AdaptiveThresholds strict;
+    return (range.moves_new_points ? adaptive_ : strict).In(range, matching_.thresholds);
   }
 
  private:

@@ -56,7 +56,7 @@ TEST_F(TrackingTest, AJumpIsBridgedByTheReferenceKeyFrame) {
   EXPECT_THAT(frame.cam_from_world, Rigid3dNear(truth, 0.1, 0.01));
 }
 
-TEST_F(TrackingTest, NewPointsAreMadeStrictlyWhenTrackingIsLoose) {
+TEST_F(TrackingTest, NewPointsFollowLooseTrackingOnlyWhereTheFeaturesSaySo) {
   auto view = std::make_shared<ViewModel>(*scene_.view());
   view->thresholds = {{50.0F, 100.0F}, {50.0F, 100.0F}, {65.0F, 115.0F}};
   Map map(view);
@@ -75,6 +75,8 @@ TEST_F(TrackingTest, NewPointsAreMadeStrictlyWhenTrackingIsLoose) {
     ASSERT_EQ(result.refusal, FrameRefusal::kNone);
   }
   EXPECT_EQ(result.thresholds.low, 65.0F);
+  EXPECT_EQ(tracker.MappingThresholds(map).low, 65.0F);
+  view->thresholds.moves_new_points = false;
   EXPECT_EQ(tracker.MappingThresholds(map).low, 50.0F);
 }
 

@@ -322,7 +322,7 @@ std::vector<Figure> ThresholdFigures(const RunRecord& run) {
   if (values.size() < 2) return {};
   Figure matches{"Matches with the last frame", plot,
                  "The thresholds rise when the matches that agree with the pose get few. New map "
-                 "points are always made with the strict one."};
+                 "points of LIFT are always made with the strict one."};
   matches.plot.description = matches.title;
   matches.plot.y = {"points", /*integers=*/true, 0.0, {}};
   matches.plot.series = {FrameSeries(run, "matched map points", PlotColor::kSky,

@@ -66,6 +66,9 @@ ThresholdRange LiftThresholds(const LiftWeights& weights, const LiftExtractorOpt
     const auto [low, middle] = std::minmax({matching[4], kWindowFactor * wrong[2]});
     range = {{low, middle}, {low, middle}, {middle, std::max(middle, kWindowFactor * wrong[4])}};
   }
+  // Between strict and loose lie most wrong matches. A wrong new point has nothing yet that speaks
+  // against it, and along a repeated texture such points take the scale with them.
+  range.moves_new_points = false;
   if (options.low_threshold > 0.0) range.fixed.low = static_cast<float>(options.low_threshold);
   if (options.high_threshold > 0.0) range.fixed.high = static_cast<float>(options.high_threshold);
   range.fixed.high = std::max(range.fixed.low, range.fixed.high);
