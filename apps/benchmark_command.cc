@@ -177,7 +177,7 @@ void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
   command.add_option("--jobs", arguments.jobs, "Runs at a time (default 1)");
   command
       .add_option("--feature-cache", arguments.feature_cache,
-                  "Folder that keeps LIFT's features: further runs find them there (no times then)")
+                  "Folder that keeps features: further runs find them there (no times then)")
       ->type_name("FOLDER");
   command.add_option("--frames", request.frames, "Part of every sequence: FIRST:LAST:STEP");
   command.add_option("--set", request.overrides, "KEY=VALUE for every system")

@@ -22,7 +22,7 @@ struct BatchResult {
 // and what killed ones left is removed); a finished job's folder is renamed into place. What a
 // job prints is in console.txt; the folder of one that failed goes to `folder`/failed and is tried
 // again the next time. SIGINT and SIGTERM end the batch; unfinished jobs begin anew the next time.
-// Runs keep LIFT's features in `feature_cache`, unless it is empty.
+// Runs keep features in `feature_cache`, unless it is empty.
 BatchResult RunJobs(const std::vector<BenchmarkJob>& jobs, const std::filesystem::path& folder,
                     int num_parallel, const std::filesystem::path& feature_cache = {});
 

@@ -18,9 +18,8 @@ void FeatureArguments::AddTo(CLI::App& command) {
       ->capture_default_str();
   command.add_flag("--upright,!--turned", upright,
                    "LIFT's patches are not turned (default), or turned by the orientation network");
-  command.add_option(
-      "--feature-cache", feature_cache,
-      "Folder that keeps LIFT's features: further commands and runs find them there");
+  command.add_option("--feature-cache", feature_cache,
+                     "Folder that keeps features: further commands and runs find them there");
   command.add_option("--threads", num_threads, "Threads")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

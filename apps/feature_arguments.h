@@ -18,7 +18,7 @@ struct FeatureArguments {
   std::filesystem::path weights;  // of LIFT; empty: those that ship
   int max_features = 0;           // an image; 0: the extractor's default
   bool upright = true;            // LIFT's patches are not turned
-  std::filesystem::path feature_cache;  // folder that keeps LIFT's features; empty: none
+  std::filesystem::path feature_cache;  // folder that keeps features; empty: none
   int num_threads = 2;
 
   // Adds them to a command; *this must outlive it.

@@ -179,9 +179,10 @@ void AddRunCommand(CLI::App& app) {
   command->add_flag("--localization-only", arguments->files.maps.localization_only,
                     "Poses in the loaded maps alone, which are not changed");
   command
-      ->add_option("--feature-cache", arguments->files.feature_cache,
-                   "Folder that keeps LIFT's features of every image (0.5 MB each): further runs "
-                   "find them there")
+      ->add_option(
+          "--feature-cache", arguments->files.feature_cache,
+          "Folder that keeps the features of every image (0.1 MB each with ORB, 0.5 MB with "
+          "LIFT): further runs find them there")
       ->type_name("FOLDER");
   command
       ->add_option("--distort", arguments->distort,

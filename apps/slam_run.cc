@@ -152,10 +152,6 @@ std::shared_ptr<FeatureCache> OpenFeatureCache(const std::filesystem::path& fold
 }
 
 void LogCache(const FeatureCache::Statistics& statistics, RunLog& log) {
-  if (statistics.num_found + statistics.num_made == 0) {
-    log.Info("feature cache: not used, it is for LIFT's features");
-    return;
-  }
   log.Info(fmt::format("feature cache: images found {}, made {}", statistics.num_found,
                        statistics.num_made));
   if (!statistics.write_error.empty()) {

@@ -9,11 +9,11 @@
 
 namespace lift_slam {
 
-// Features kept in a folder, a file for each image: learned features take most of the time of a
-// run, and runs with other seeds or other options after the features repeat them. Found again by
-// the image's content and how its features are made, so a folder serves any number of sequences
-// and settings; processes may share it. A file that is damaged or cannot be read counts
-// as missing. Features made on another kind of processor may differ in their last bits.
+// Features kept in a folder, a file for each image: features take much of the time of a run
+// (learned ones most of it), and runs with other seeds or other options after the features repeat
+// them. Found again by the image's content and how its features are made, so a folder serves any
+// number of sequences and settings; processes may share it. A file that is damaged or cannot be
+// read counts as missing. Features made on another kind of processor may differ in their last bits.
 class FeatureCache {
  public:
   struct Statistics {

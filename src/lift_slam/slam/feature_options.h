@@ -22,7 +22,7 @@ struct FeatureOptions {
 };
 
 // Throws InputError for options out of range, and for weights that are missing or damaged. With a
-// cache, LIFT's features of images seen before come from there; ORB's are made as fast as read.
+// cache, features of images seen before come from there.
 std::unique_ptr<FeatureExtractor> CreateFeatureExtractor(
     const FeatureOptions& options, std::shared_ptr<FeatureCache> cache = nullptr);
 
