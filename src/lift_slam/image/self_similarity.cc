@@ -72,24 +72,20 @@ struct Moments {
   float mean = 0.0F, deviation = 0.0F;  // deviation times sqrt(kArea)
 };
 
-Moments MomentsAt(const Strip& strip, int offset) {
-  const float* values = strip.Column(offset - kHalf);
-  float sum = 0.0F, squares = 0.0F;
-  for (int i = 0; i < kArea; ++i) {
-    sum += values[i];
-    squares += values[i] * values[i];
-  }
-  const float mean = sum / kArea;
-  return {mean, std::sqrt(std::max(0.0F, squares - sum * mean))};
+using Patch = Eigen::Map<const Eigen::Vector<float, kArea>>;
+
+Patch PatchAt(const Strip& strip, int offset) { return Patch(strip.Column(offset - kHalf)); }
+
+Moments MomentsOf(const Patch& patch) {
+  const float sum = patch.sum(), mean = sum / kArea;
+  return {mean, std::sqrt(std::max(0.0F, patch.squaredNorm() - sum * mean))};
 }
 
 double Correlation(const Strip& strip, const Moments& middle, int offset) {
-  const Moments moments = MomentsAt(strip, offset);
+  const Patch patch = PatchAt(strip, offset);
+  const Moments moments = MomentsOf(patch);
   if (!(moments.deviation > kMinContrast * kSide)) return -1.0;
-  const float* a = strip.Column(-kHalf);
-  const float* b = strip.Column(offset - kHalf);
-  float product = 0.0F;
-  for (int i = 0; i < kArea; ++i) product += a[i] * b[i];
+  const float product = PatchAt(strip, 0).dot(patch);
   return (product - kArea * middle.mean * moments.mean) / (middle.deviation * moments.deviation);
 }
 
@@ -105,7 +101,7 @@ double SelfSimilarityAlong(const ImagePyramid& image, const Eigen::Vector2d& cen
   const Strip strip = CutStrip(level, at_level, direction.normalized(), scale / level.scale_x,
                                static_cast<int>(options.reach_px));
   if (strip.first > -kHalf || strip.last < kHalf) return -1.0;
-  const Moments middle = MomentsAt(strip, 0);
+  const Moments middle = MomentsOf(PatchAt(strip, 0));
   if (!(middle.deviation > kMinContrast * kSide)) return 1.0;
   const int nearest = static_cast<int>(std::ceil(options.min_offset_px));
   double largest = -1.0;
