@@ -48,11 +48,11 @@ void Gather(std::span<const PoseObservation> observations, const std::vector<cha
 }
 
 Rigid3d SolveRound(const PinholeIntrinsics& intrinsics, const Rigid3d& cam_from_world,
-                   const PoseObservationArrays& arrays, bool is_robust,
+                   const PoseObservationArrays& arrays, bool is_robust, const CenterPrior& prior,
                    const PoseOptimizationOptions& options) {
   const double huber_width =
       is_robust ? std::sqrt(options.max_squared_error) : std::numeric_limits<double>::infinity();
-  const PoseCost cost(intrinsics, cam_from_world, huber_width, arrays);
+  const PoseCost cost(intrinsics, cam_from_world, huber_width, arrays, prior);
   ceres::TinySolver<PoseCost> solver;
   solver.options.max_num_iterations = options.iterations_per_round + 1;  // it counts from 1
   solver.options.function_tolerance = options.min_change;
@@ -73,7 +73,8 @@ double OutlierLimit(const PoseOptimizationOptions& options, int round) {
 PoseOptimizationResult OptimizePose(const PinholeIntrinsics& intrinsics,
                                     const Rigid3d& initial_cam_from_world,
                                     std::span<const PoseObservation> observations,
-                                    const PoseOptimizationOptions& options) {
+                                    const PoseOptimizationOptions& options,
+                                    const CenterPrior& prior) {
   LIFT_SLAM_CHECK(options.rounds >= 1 && options.iterations_per_round >= 1,
                   "{} rounds of {} iterations", options.rounds, options.iterations_per_round);
   PoseOptimizationResult result;
@@ -86,7 +87,7 @@ PoseOptimizationResult OptimizePose(const PinholeIntrinsics& intrinsics,
   for (int round = 0; round < options.rounds && num_used >= kMinInliers; ++round) {
     Gather(observations, result.is_inlier, arrays);
     result.cam_from_world = SolveRound(intrinsics, result.cam_from_world, arrays,
-                                       round < options.robust_rounds, options);
+                                       round < options.robust_rounds, prior, options);
     num_used = Classify(intrinsics, result.cam_from_world, observations,
                         OutlierLimit(options, round), result.is_inlier);
   }

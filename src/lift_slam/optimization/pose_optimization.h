@@ -17,6 +17,12 @@ struct PoseObservation {
   double inverse_variance = 1.0;   // 1 / sigma^2 of the pixel, 1 / px^2, of x and of y
 };
 
+// Where the camera is expected, apart from what it sees.
+struct CenterPrior {
+  Eigen::Vector3d center_in_world = Eigen::Vector3d::Zero();
+  double inverse_variance = 0.0;  // 1 / sigma^2 along each axis, 1 / map units^2
+};
+
 struct PoseOptimizationOptions {
   int rounds = 4;                 // inliers are chosen anew after each
   int robust_rounds = 3;          // first rounds with a Huber loss; the others are plain
@@ -60,6 +66,7 @@ struct PoseOptimizationResult {
 PoseOptimizationResult OptimizePose(const PinholeIntrinsics& intrinsics,
                                     const Rigid3d& initial_cam_from_world,
                                     std::span<const PoseObservation> observations,
-                                    const PoseOptimizationOptions& options = {});
+                                    const PoseOptimizationOptions& options = {},
+                                    const CenterPrior& prior = {});
 
 }  // namespace lift_slam

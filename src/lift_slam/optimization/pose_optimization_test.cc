@@ -59,6 +59,23 @@ TEST(OptimizePose, FindsThePoseFromFewObservationsWithManyOutliers) {
   EXPECT_GE(found, 88);  // 83 without the wider limits of the first rounds
 }
 
+TEST(OptimizePose, APriorHoldsTheCenterWhereTheImageSaysLittleAndYieldsWhereItSaysMuch) {
+  Random random(4);
+  PoseScene scene = MakePoseScene({.num_points = 100, .sigma_px = 1.0}, random);
+  const Eigen::Vector3d truth = scene.cam_from_world.TargetOriginInSource();
+  const CenterPrior wrong{truth + Eigen::Vector3d(0.3, 0.0, 0.0), 1.0 / (0.1 * 0.1)};
+  const auto distance = [&] {
+    const auto result =
+        OptimizePose(scene.intrinsics, scene.cam_from_world, scene.observations, {}, wrong);
+    return (result.cam_from_world.TargetOriginInSource() - truth).norm();
+  };
+  EXPECT_LT(distance(), 0.05);
+  for (PoseObservation& observation : scene.observations) {  // the same directions, far away
+    observation.point_in_world = truth + 1000.0 * (observation.point_in_world - truth);
+  }
+  EXPECT_NEAR(distance(), 0.3, 0.01);
+}
+
 TEST(OptimizePose, WeightsObservationsByTheirVariance) {
   Random random(3);
   PoseScene scene = MakePoseScene({.num_points = 200}, random);

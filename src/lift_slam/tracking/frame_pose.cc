@@ -2,7 +2,8 @@
 
 namespace lift_slam {
 
-int OptimizeFramePose(const Map& map, const PoseOptimizationOptions& options, Frame& frame) {
+int OptimizeFramePose(const Map& map, const PoseOptimizationOptions& options, Frame& frame,
+                      const CenterPrior& prior) {
   std::vector<PoseObservation> observations;
   std::vector<std::size_t> features;
   for (std::size_t i = 0; i < frame.map_points.size(); ++i) {
@@ -18,7 +19,7 @@ int OptimizeFramePose(const Map& map, const PoseOptimizationOptions& options, Fr
     features.push_back(i);
   }
   const PoseOptimizationResult result =
-      OptimizePose(map.view().pinhole, frame.cam_from_world, observations, options);
+      OptimizePose(map.view().pinhole, frame.cam_from_world, observations, options, prior);
   frame.cam_from_world = result.cam_from_world;
   for (std::size_t k = 0; k < features.size(); ++k) {
     if (!result.is_inlier[k]) frame.map_points[features[k]] = MapPointId();

@@ -7,6 +7,7 @@ namespace lift_slam {
 
 // Optimises the frame's pose from its matches and takes away the matches that disagree with it.
 // Returns the number of matches left.
-int OptimizeFramePose(const Map& map, const PoseOptimizationOptions& options, Frame& frame);
+int OptimizeFramePose(const Map& map, const PoseOptimizationOptions& options, Frame& frame,
+                      const CenterPrior& prior = {});
 
 }  // namespace lift_slam

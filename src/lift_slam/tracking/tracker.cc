@@ -50,6 +50,7 @@ void Tracker::KeyFrameMapped(const Map& map, KeyFrameId keyframe) {
 
 TrackingResult Tracker::Track(Map& map, Frame& frame) {
   TrackingResult result;
+  prior_.Forget();
   result.thresholds = Thresholds(map);
   ++frames_since_keyframe_;
   if (frame.features->size() < kMinFeatures) {
@@ -81,6 +82,7 @@ TrackingResult Tracker::Refuse(FrameRefusal refusal, Frame& frame, TrackingResul
 }
 
 TrackingResult Tracker::Conclude(const Map& map, const Frame& frame, TrackingResult result) {
+  prior_.Learn(frame.cam_from_world);
   adaptive_ = Adapt(adaptive_, matching_, result.num_last_matches, result.num_last_outliers);
   const double ratio = FoundRatio(result);
   usual_found_ratio_ = usual_found_ratio_ > 0.0
@@ -95,6 +97,7 @@ TrackingResult Tracker::Conclude(const Map& map, const Frame& frame, TrackingRes
 
 TrackingResult Tracker::Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar) {
   TrackingResult result;
+  prior_.Forget();
   result.thresholds = LoosestThresholds(map);
   const KeyFrameId reference = reference_;
   for (const KeyFrameId keyframe : similar) {
@@ -113,6 +116,7 @@ TrackingResult Tracker::Relocalize(Map& map, Frame& frame, std::span<const KeyFr
 void Tracker::MapCorrected(const Map& map, KeyFrameId keyframe, double scale) {
   KeyFrameMapped(map, keyframe);
   if (velocity_) velocity_->translation *= scale;
+  prior_.Rescale(scale);
 }
 
 void Tracker::Remember(const Frame& frame) {
@@ -122,8 +126,9 @@ void Tracker::Remember(const Frame& frame) {
   last_was_tracked_ = true;
 }
 
-bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) const {
+bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) {
   frame.cam_from_world = velocity_ ? *velocity_ * last_.cam_from_world : last_.cam_from_world;
+  if (velocity_) prior_.Expect(last_.cam_from_world, frame.cam_from_world);
   const int enough = std::max(
       options_.min_matches,
       static_cast<int>(options_.min_match_share * static_cast<double>(last_.CountMatches())));
@@ -141,7 +146,7 @@ bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult&
                                  result.thresholds.high, frame);
   }
   if (matches < options_.min_matches) return false;
-  const int inliers = OptimizeFramePose(map, options_.pose, frame);
+  const int inliers = OptimizeFramePose(map, options_.pose, frame, prior_.For(matches));
   if (inliers < options_.min_inliers_first) return false;
   result.num_last_matches = matches;
   result.num_last_outliers = matches - inliers;
@@ -152,13 +157,15 @@ MatchingThresholds Tracker::LoosestThresholds(const Map& map) const {
   return AdaptiveThresholds{1.0}.In(map.view().thresholds, matching_.thresholds);
 }
 
-bool Tracker::TrackReferenceKeyFrame(const Map& map, Frame& frame) const {
+bool Tracker::TrackReferenceKeyFrame(const Map& map, Frame& frame) {
+  prior_.Forget();
   if (map.FindKeyFrame(reference_) == nullptr) return false;
   frame.cam_from_world = last_.cam_from_world;
   return TryKeyFrame(map, reference_, frame);
 }
 
-bool Tracker::Recover(const Map& map, Frame& frame) const {
+bool Tracker::Recover(const Map& map, Frame& frame) {
+  prior_.Forget();
   if (map.num_keyframes() == 0) return false;
   KeyFrameId newest = reference_;
   if (map.FindKeyFrame(newest) == nullptr) newest = map.KeyFrameIds().back();
@@ -199,7 +206,7 @@ int Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& re
       map, local.points, wide ? kWideRadiusFactor : 1.0F, result.thresholds.high, frame);
   AlignMatches(map, frame);
   result.num_matches = frame.CountMatches();
-  result.num_inliers = OptimizeFramePose(map, options_.pose, frame);
+  result.num_inliers = OptimizeFramePose(map, options_.pose, frame, prior_.For(result.num_matches));
   result.num_visible = static_cast<int>(matched.visible.size());
   CountSightings(matched.visible, frame, map);
   return result.num_inliers;

@@ -6,6 +6,7 @@
 
 #include "lift_slam/map/map.h"
 #include "lift_slam/matching/adaptive_thresholds.h"
+#include "lift_slam/tracking/motion_prior.h"
 #include "lift_slam/tracking/tracker_options.h"
 #include "lift_slam/tracking/tracking_state.h"
 
@@ -30,7 +31,7 @@ struct TrackingResult {
 class Tracker {
  public:
   Tracker(const TrackerOptions& options, const MatchingOptions& matching, std::uint64_t seed)
-      : options_(options), matching_(matching), seed_(seed) {}
+      : options_(options), matching_(matching), seed_(seed), prior_(options.motion_prior) {}
 
   // Starts in a map whose newest keyframe is `last` (pose and matches valid).
   void Start(const Map& map, const Frame& last, std::optional<Rigid3d> velocity);
@@ -71,9 +72,9 @@ class Tracker {
   MatchingThresholds Thresholds(const Map& map) const {
     return adaptive_.In(map.view().thresholds, matching_.thresholds);
   }
-  bool TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) const;
-  bool TrackReferenceKeyFrame(const Map& map, Frame& frame) const;
-  bool Recover(const Map& map, Frame& frame) const;
+  bool TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result);
+  bool TrackReferenceKeyFrame(const Map& map, Frame& frame);
+  bool Recover(const Map& map, Frame& frame);
   MatchingThresholds LoosestThresholds(const Map& map) const;
   bool TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const;
   int TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result);
@@ -88,6 +89,7 @@ class Tracker {
   Frame last_;
   bool last_was_tracked_ = false;
   std::optional<Rigid3d> velocity_;  // cam_from_last_cam
+  MotionPrior prior_;
   KeyFrameId reference_;
   int frames_since_keyframe_ = 0;
   double usual_found_ratio_ = 0.0;  // inliers over visible points of tracked frames, smoothed

@@ -3,6 +3,7 @@
 #include "lift_slam/geometry/absolute_pose.h"
 #include "lift_slam/optimization/pose_optimization.h"
 #include "lift_slam/tracking/keyframe_decision.h"
+#include "lift_slam/tracking/motion_prior.h"
 #include "lift_slam/util/options.h"
 
 namespace lift_slam {
@@ -24,6 +25,7 @@ struct TrackerOptions {
   int recovery_keyframes = 5;    // recent keyframes matched without prediction when lost
   PoseOptimizationOptions pose;
   AbsolutePoseOptions absolute_pose;
+  MotionPriorOptions motion_prior;
   KeyFrameDecisionOptions keyframe;
 
   void Visit(OptionVisitor& visitor) {
@@ -44,6 +46,7 @@ struct TrackerOptions {
                   "keyframes tried without prediction when tracking fails");
     visitor.Group("pose", pose, "motion-only bundle adjustment");
     visitor.Group("absolute_pose", absolute_pose, "pose without prediction, by P3P");
+    visitor.Group("motion_prior", motion_prior, "the expected place of a frame that sees little");
     visitor.Group("keyframe", keyframe, "when a frame becomes a keyframe");
   }
 };

@@ -97,7 +97,25 @@ inline void Accumulate(const PinholeIntrinsics& intrinsics, const Group& group, 
   sums.loss += group.loss;
 }
 
-NormalEquations<6> ToNormalEquations(const Sums& sums, const Eigen::Vector3d& rotation_change) {
+// The prior as the point of the expected centre, seen at the camera's own.
+void AddPrior(const CenterPrior& prior, const Motion& motion, NormalEquations<6>& equations) {
+  if (!(prior.inverse_variance > 0.0)) return;
+  const Eigen::Vector3d rotated = motion.rotation * prior.center_in_world + motion.offset;
+  const Eigen::Vector3d error = rotated + motion.shift;
+  Eigen::Matrix<double, 3, 6> jacobian;
+  jacobian << -SkewSymmetric(rotated), Eigen::Matrix3d::Identity();
+  equations.hessian += prior.inverse_variance * jacobian.transpose() * jacobian;
+  equations.gradient += prior.inverse_variance * jacobian.transpose() * error;
+  equations.squared_norm += prior.inverse_variance * error.squaredNorm();
+}
+
+double PriorCost(const CenterPrior& prior, const Motion& motion) {
+  return prior.inverse_variance *
+         (motion.rotation * prior.center_in_world + motion.offset + motion.shift).squaredNorm();
+}
+
+NormalEquations<6> ToNormalEquations(const Sums& sums, const CenterPrior& prior,
+                                     const Motion& motion, const Eigen::Vector3d& rotation_change) {
   NormalEquations<6> equations;
   for (int i = 0; i < 6; ++i) {
     const auto row = static_cast<std::size_t>(i);
@@ -108,6 +126,7 @@ NormalEquations<6> ToNormalEquations(const Sums& sums, const Eigen::Vector3d& ro
     }
   }
   equations.squared_norm = sums.loss.sum();
+  AddPrior(prior, motion, equations);
   Eigen::Matrix<double, 6, 6> chain = Eigen::Matrix<double, 6, 6>::Identity();
   chain.topLeftCorner<3, 3>() = LeftJacobianSo3(rotation_change);
   equations.hessian = chain.transpose() * equations.hessian * chain;
@@ -151,7 +170,7 @@ double PoseCost::SquaredNorm(const Eigen::Matrix<double, 6, 1>& parameters) cons
     if (!group.is_in_front) return std::numeric_limits<double>::infinity();
     loss += group.loss;
   }
-  return loss.sum();
+  return loss.sum() + PriorCost(prior_, motion);
 }
 
 NormalEquations<6> PoseCost::Evaluate(const Eigen::Matrix<double, 6, 1>& parameters) const {
@@ -166,7 +185,7 @@ NormalEquations<6> PoseCost::Evaluate(const Eigen::Matrix<double, 6, 1>& paramet
     is_in_front = is_in_front && group.is_in_front;
     Accumulate(intrinsics_, group, sums);
   }
-  NormalEquations<6> equations = ToNormalEquations(sums, parameters.head<3>());
+  NormalEquations<6> equations = ToNormalEquations(sums, prior_, motion, parameters.head<3>());
   if (!is_in_front) equations.squared_norm = std::numeric_limits<double>::infinity();
   return equations;
 }

@@ -39,11 +39,13 @@ class PoseCost {
 
   // `observations` must outlive this and be padded. An infinite huber_width means a plain sum.
   PoseCost(const PinholeIntrinsics& intrinsics, const Rigid3d& base_cam_from_world,
-           double huber_width, const PoseObservationArrays& observations)
+           double huber_width, const PoseObservationArrays& observations,
+           const CenterPrior& prior = {})
       : intrinsics_(intrinsics),
         base_cam_from_world_(base_cam_from_world),
         huber_width_(huber_width),
-        observations_(observations) {}
+        observations_(observations),
+        prior_(prior) {}
 
   // residuals: 7; jacobian: 7 x 6 column-major, or null.
   bool operator()(const double* parameters, double* residuals, double* jacobian) const;
@@ -59,6 +61,7 @@ class PoseCost {
   Rigid3d base_cam_from_world_;
   double huber_width_;
   const PoseObservationArrays& observations_;
+  CenterPrior prior_;
 };
 
 }  // namespace lift_slam

@@ -70,6 +70,24 @@ TEST_F(PoseCostTest, GradientMatchesDifferencesAwayFromTheBasePose) {
   }
 }
 
+TEST_F(PoseCostTest, PriorAddsTheWeightedSquaredDistanceOfTheCenters) {
+  Make(3.0);
+  const CenterPrior prior{scene_.cam_from_world.TargetOriginInSource() + Eigen::Vector3d(1, 2, 3),
+                          0.5};
+  const PoseCost without(scene_.intrinsics, scene_.cam_from_world, 3.0, arrays_);
+  const PoseCost cost(scene_.intrinsics, scene_.cam_from_world, 3.0, arrays_, prior);
+  EXPECT_NEAR(cost.SquaredNorm(Vector6d::Zero()) - without.SquaredNorm(Vector6d::Zero()),
+              0.5 * 14.0, 1e-9);
+  EXPECT_NEAR(cost.SquaredNorm(parameters_), cost.Evaluate(parameters_).squared_norm, 1e-9);
+  const Vector6d gradient = cost.Evaluate(parameters_).gradient;
+  for (int k = 0; k < 6; ++k) {
+    const Vector6d step = 1e-6 * Vector6d::Unit(k);
+    const double difference =
+        (cost.SquaredNorm(parameters_ + step) - cost.SquaredNorm(parameters_ - step)) / 2e-6;
+    EXPECT_NEAR(gradient[k], 0.5 * difference, 1e-6 * gradient.norm());
+  }
+}
+
 TEST_F(PoseCostTest, HessianIsThatOfTheGradientAtAPerfectFit) {
   Make(0.0);  // without residuals J^T J is the whole second derivative
   const PoseCost cost(scene_.intrinsics, scene_.cam_from_world, kInfinity, arrays_);
