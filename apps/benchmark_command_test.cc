@@ -260,7 +260,7 @@ TEST_F(BenchmarkCommand, TheShippedAblationChangesOnlySettingsThatExist) {
       RunProgram(fmt::format("benchmark plan ablation --data {}/data --output {} --runs 1",
                              folder_.string(), output_.string()));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("plan        11 runs"));
+  EXPECT_THAT(outcome.output, HasSubstr("plan        12 runs"));
   EXPECT_THAT(ReadText(output_ / "plan.json"), HasSubstr("slam.lift.precision=int8"));
 }
 

@@ -16,7 +16,8 @@
 namespace lift_slam {
 namespace {
 
-// To be raised when an extractor gives other features for the same options.
+// To be raised when an extractor (features/orb, features/lift) gives other features for the same
+// options: caches outlive revisions.
 constexpr char kVersion[] = "1";
 
 // A file: this, the keypoints, the rows of the descriptors.

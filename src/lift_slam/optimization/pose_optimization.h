@@ -61,6 +61,7 @@ struct PoseOptimizationResult {
 // start anew from the initial pose gave the same poses in tests) and uses the inliers under it;
 // observations left out before may come back. An observation whose point lies behind the camera,
 // or that is not finite, is an outlier.
+// A prior holds the camera's centre, without a loss; inliers are chosen by the image alone.
 // With fewer than 3 inliers the pose is undetermined: the result is the initial pose with the
 // inliers under it. Same input, same bits. About 0.1 ms for 500 observations.
 PoseOptimizationResult OptimizePose(const PinholeIntrinsics& intrinsics,

@@ -97,6 +97,7 @@ class Sim3Optimizer {
     problem.AddResidualBlock(Sim3ReprojectionCost::Create(in_image1), loss(), change.data());
     problem.AddResidualBlock(Sim3ReprojectionCost::Create(in_image2), loss(), change.data());
     if (scale_fit_ == ScaleFit::kFixed || !(o.log_depth_sigma > 0.0)) return;
+    if (!(o.point_in_cam1.z() > kMinDepth)) return;
     const Sim3DepthCost depth(base, o.point_in_cam2, std::log(o.point_in_cam1.z()),
                               1.0 / o.log_depth_sigma);
     problem.AddResidualBlock(Sim3DepthCost::Create(depth), new ceres::CauchyLoss(kDepthLossSigmas),

@@ -17,8 +17,8 @@ struct Sim3Observation {
   Eigen::Vector3d point_in_cam1, point_in_cam2;             // held fixed
   Eigen::Vector2d pixel1, pixel2;                           // undistorted
   double inverse_variance1 = 1.0, inverse_variance2 = 1.0;  // 1 / px^2, of x and of y
-  // Standard deviation of log(depth in the second map / depth in the first), in camera 1; 0: the
-  // depths say nothing of the scale.
+  // Standard deviation of log(depth in the second map / depth in the first), in camera 1; 0 or
+  // infinite: the depths say nothing of the scale, nor where point_in_cam1 is not in front.
   double log_depth_sigma = 0.0;
 };
 

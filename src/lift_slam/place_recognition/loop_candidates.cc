@@ -157,7 +157,7 @@ std::string_view Explain(CandidateRejection rejection) {
     case CandidateRejection::kFewCommonWords:
       return "Too few visual words in common.";
     case CandidateRejection::kLowScore:
-      return "Less alike than the keyframes around the query.";
+      return "Far less alike than the keyframes around the query.";
     case CandidateRejection::kWeakGroup:
       return "Its group of covisible keyframes is far less alike than the best.";
     case CandidateRejection::kNotBestOfGroup:

@@ -22,7 +22,7 @@ using CovisibleKeyframes = std::function<std::vector<int>(int keyframe)>;
 enum class CandidateRejection {
   kAccepted,
   kFewCommonWords,  // fewer than a share of the most that any candidate has
-  kLowScore,        // less alike than a covisible neighbour of the query
+  kLowScore,        // far less alike than a covisible neighbour of the query
   kWeakGroup,       // it and its covisible candidates together score far below the best group
   kNotBestOfGroup,  // a covisible candidate of a kept group is better and stands for it
   kInconsistent,    // its place was not recognised in enough keyframes in a row (yet)

@@ -12,13 +12,6 @@ namespace lift_slam {
 namespace {
 
 // Without what does not change the features themselves.
-std::string IdentityOf(OrbOptions options) {
-  const OrbOptions defaults;
-  options.num_threads = defaults.num_threads;
-  options.sigma_px = defaults.sigma_px;
-  return "orb\n" + OptionsToYaml(MakeOptionRoot(options));
-}
-
 std::string IdentityOf(LiftExtractorOptions options, const LiftExtractor& extractor) {
   const LiftExtractorOptions defaults;
   options.num_threads = defaults.num_threads;
@@ -36,7 +29,7 @@ std::unique_ptr<FeatureExtractor> CreateFeatureExtractor(const FeatureOptions& o
   if (options.type == FeatureType::kOrb) {
     auto orb = CreateOrbExtractor(options.orb);
     if (!cache) return orb;
-    return WithCache(std::move(orb), IdentityOf(options.orb), std::move(cache));
+    return WithCache(std::move(orb), OrbIdentity(options.orb), std::move(cache));
   }
   auto lift =
       std::make_unique<LiftExtractor>(ReadLiftWeightsOrDefault(options.lift_weights), options.lift);

@@ -73,7 +73,7 @@ struct PlaceEvent {
   int num_word_matches = 0, num_inliers = 0, num_projected = 0, num_confirming = 0;
   // See PlaceMatch.
   double found_ratio = 0.0, own_found_ratio = 0.0, mutual_ratio = 0.0, offset_ratio = 0.0;
-  // By which a closed loop changed lengths at this frame; of a merge, lengths of the earlier map
+  // By which a closed loop changed lengths at this frame; of a merge, lengths of the other map
   // over those of this frame's.
   double scale = 1.0;
 };

@@ -18,6 +18,7 @@ SlamSystem::SlamSystem(const Camera& camera, std::shared_ptr<const ViewModel> vi
       options_(options),
       maps_(options, std::move(vocabulary), record_) {
   options_.matching.Check();
+  options_.tracker.motion_prior.Check();
   BeginInitializing();
 }
 

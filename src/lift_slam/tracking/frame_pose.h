@@ -5,8 +5,8 @@
 
 namespace lift_slam {
 
-// Optimises the frame's pose from its matches and takes away the matches that disagree with it.
-// Returns the number of matches left.
+// Optimises the frame's pose from its matches, and from where it is expected if so, and takes away
+// the matches that disagree with it. Returns the number of matches left.
 int OptimizeFramePose(const Map& map, const PoseOptimizationOptions& options, Frame& frame,
                       const CenterPrior& prior = {});
 

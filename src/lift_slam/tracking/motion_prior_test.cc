@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "lift_slam/util/input_error.h"
+
 namespace lift_slam {
 namespace {
 
@@ -31,12 +33,26 @@ class MotionPriorTest : public testing::Test {
 };
 
 TEST_F(MotionPriorTest, IsWhereConstantVelocityLeads) {
+  LearnChange(0.1);
   prior_.Expect(CameraAt(1.0), CameraAt(3.0));
   EXPECT_EQ(prior_.For(kFew).center_in_world, Eigen::Vector3d(3.0, 0.0, 0.0));
   EXPECT_GT(prior_.For(kFew).inverse_variance, 0.0);
 }
 
+TEST_F(MotionPriorTest, SaysNothingBeforeItKnowsWhatIsUsual) {
+  for (int i = 0; i < 19; ++i) {
+    prior_.Expect(CameraAt(0.0), CameraAt(1.0));
+    prior_.Learn(CameraAt(1.1));
+  }
+  prior_.Expect(CameraAt(0.0), CameraAt(1.0));
+  EXPECT_EQ(prior_.For(kFew).inverse_variance, 0.0);
+  prior_.Learn(CameraAt(1.1));
+  EXPECT_NEAR(Sigma(), 0.04, 1e-6);
+}
+
 TEST_F(MotionPriorTest, SaysNothingWhereTheFrameSeesEnoughOrNothingIsExpected) {
+  LearnChange(0.1);
+  prior_.Forget();
   EXPECT_EQ(prior_.For(kFew).inverse_variance, 0.0);
   prior_.Expect(CameraAt(1.0), CameraAt(3.0));
   EXPECT_EQ(prior_.For(kMany).inverse_variance, 0.0);
@@ -70,6 +86,12 @@ TEST_F(MotionPriorTest, OneJumpChangesLittle) {
   prior_.Expect(CameraAt(0.0), CameraAt(1.0));
   prior_.Learn(CameraAt(50.0));
   EXPECT_LT(Sigma(), 0.042);
+}
+
+TEST_F(MotionPriorTest, OptionsOutOfRangeAreRefused) {
+  EXPECT_NO_THROW(MotionPriorOptions().Check());
+  EXPECT_THROW((MotionPriorOptions{.min_matches = -1}.Check()), InputError);
+  EXPECT_THROW((MotionPriorOptions{.min_change_ratio = 0.0}.Check()), InputError);
 }
 
 }  // namespace

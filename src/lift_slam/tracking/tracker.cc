@@ -16,6 +16,10 @@ namespace {
 constexpr int kMinFeatures = 50;
 // Where the motion model or, after a recovery, the pose is rough.
 constexpr float kWideRadiusFactor = 3.0F;
+// Constant velocity is trusted after so many frames in a row that it led to, and when the time from
+// frame to frame does not change by more than this share.
+constexpr int kMinFramesByMotion = 2;
+constexpr double kMaxIntervalChange = 0.25;
 // Weight of a frame in the smoothed share of points that are found.
 constexpr double kSmoothing = 0.05;
 
@@ -36,6 +40,7 @@ void CountSightings(const std::vector<MapPointId>& visible, const Frame& frame, 
 void Tracker::Start(const Map& map, const Frame& last, std::optional<Rigid3d> velocity) {
   last_was_tracked_ = true;
   velocity_ = velocity;
+  num_by_motion_ = 0;
   last_ = last;
   KeyFrameMapped(map, map.newest_keyframe());
 }
@@ -58,10 +63,10 @@ TrackingResult Tracker::Track(Map& map, Frame& frame) {
   } else {
     bool found = last_was_tracked_ &&
                  (TrackWithMotionModel(map, frame, result) || TrackReferenceKeyFrame(map, frame));
-    if (found) found = TrackLocalMap(map, frame, /*wide=*/false, result) >= options_.min_inliers;
+    if (found) found = TrackLocalMap(map, frame, /*wide=*/false, result);
     if (!found && Recover(map, frame)) {
       result.recovered = true;
-      found = TrackLocalMap(map, frame, /*wide=*/true, result) >= options_.min_inliers;
+      found = TrackLocalMap(map, frame, /*wide=*/true, result);
     }
     if (!found) {
       result.refusal = result.num_matches < options_.min_inliers ? FrameRefusal::kTooFewTracked
@@ -77,6 +82,7 @@ TrackingResult Tracker::Refuse(FrameRefusal refusal, Frame& frame, TrackingResul
   frame.ClearMatches();
   last_was_tracked_ = false;
   velocity_.reset();
+  num_by_motion_ = 0;
   adaptive_.looseness = 1.0;
   return result;
 }
@@ -97,12 +103,13 @@ TrackingResult Tracker::Conclude(const Map& map, const Frame& frame, TrackingRes
 
 TrackingResult Tracker::Relocalize(Map& map, Frame& frame, std::span<const KeyFrameId> similar) {
   TrackingResult result;
-  prior_.Forget();
+  ForgetExpected();
   result.thresholds = LoosestThresholds(map);
   const KeyFrameId reference = reference_;
   for (const KeyFrameId keyframe : similar) {
     if (map.FindKeyFrame(keyframe) == nullptr || !TryKeyFrame(map, keyframe, frame)) continue;
-    if (TrackLocalMap(map, frame, /*wide=*/true, result) < options_.min_relocalised_inliers ||
+    TrackLocalMap(map, frame, /*wide=*/true, result);
+    if (result.num_inliers < options_.min_relocalised_inliers ||
         FoundRatio(result) < options_.min_relocalised_ratio * usual_found_ratio_) {
       continue;
     }
@@ -121,14 +128,24 @@ void Tracker::MapCorrected(const Map& map, KeyFrameId keyframe, double scale) {
 
 void Tracker::Remember(const Frame& frame) {
   velocity_.reset();
-  if (last_was_tracked_) velocity_ = frame.cam_from_world * Inverse(last_.cam_from_world);
+  if (last_was_tracked_) {
+    velocity_ = frame.cam_from_world * Inverse(last_.cam_from_world);
+    velocity_interval_ns_ = frame.timestamp_ns - last_.timestamp_ns;
+  }
   last_ = frame;
   last_was_tracked_ = true;
 }
 
+bool Tracker::IsExpectable(const Frame& frame) const {
+  if (!velocity_ || num_by_motion_ < kMinFramesByMotion) return false;
+  const auto interval = static_cast<double>(frame.timestamp_ns - last_.timestamp_ns);
+  const auto usual = static_cast<double>(velocity_interval_ns_);
+  return std::abs(interval - usual) <= kMaxIntervalChange * usual;
+}
+
 bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) {
   frame.cam_from_world = velocity_ ? *velocity_ * last_.cam_from_world : last_.cam_from_world;
-  if (velocity_) prior_.Expect(last_.cam_from_world, frame.cam_from_world);
+  if (IsExpectable(frame)) prior_.Expect(last_.cam_from_world, frame.cam_from_world);
   const int enough = std::max(
       options_.min_matches,
       static_cast<int>(options_.min_match_share * static_cast<double>(last_.CountMatches())));
@@ -150,6 +167,7 @@ bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult&
   if (inliers < options_.min_inliers_first) return false;
   result.num_last_matches = matches;
   result.num_last_outliers = matches - inliers;
+  ++num_by_motion_;
   return true;
 }
 
@@ -157,15 +175,20 @@ MatchingThresholds Tracker::LoosestThresholds(const Map& map) const {
   return AdaptiveThresholds{1.0}.In(map.view().thresholds, matching_.thresholds);
 }
 
-bool Tracker::TrackReferenceKeyFrame(const Map& map, Frame& frame) {
+void Tracker::ForgetExpected() {
   prior_.Forget();
+  num_by_motion_ = 0;
+}
+
+bool Tracker::TrackReferenceKeyFrame(const Map& map, Frame& frame) {
+  ForgetExpected();
   if (map.FindKeyFrame(reference_) == nullptr) return false;
   frame.cam_from_world = last_.cam_from_world;
   return TryKeyFrame(map, reference_, frame);
 }
 
 bool Tracker::Recover(const Map& map, Frame& frame) {
-  prior_.Forget();
+  ForgetExpected();
   if (map.num_keyframes() == 0) return false;
   KeyFrameId newest = reference_;
   if (map.FindKeyFrame(newest) == nullptr) newest = map.KeyFrameIds().back();
@@ -199,17 +222,19 @@ bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) con
   return OptimizeFramePose(map, options_.pose, frame) >= options_.min_inliers_first;
 }
 
-int Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result) {
+bool Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result) {
   const LocalMap local = CollectLocalMap(map, frame, options_.max_local_keyframes);
   if (local.reference.valid()) reference_ = local.reference;
   const LocalMatchResult matched = MatchLocalPoints(
       map, local.points, wide ? kWideRadiusFactor : 1.0F, result.thresholds.high, frame);
   AlignMatches(map, frame);
   result.num_matches = frame.CountMatches();
-  result.num_inliers = OptimizeFramePose(map, options_.pose, frame, prior_.For(result.num_matches));
+  const CenterPrior prior = prior_.For(result.num_matches);
+  result.num_inliers = OptimizeFramePose(map, options_.pose, frame, prior);
   result.num_visible = static_cast<int>(matched.visible.size());
   CountSightings(matched.visible, frame, map);
-  return result.num_inliers;
+  const bool is_expected = prior.inverse_variance > 0.0;
+  return result.num_inliers >= (is_expected ? options_.min_inliers_expected : options_.min_inliers);
 }
 
 }  // namespace lift_slam

@@ -72,12 +72,16 @@ class Tracker {
   MatchingThresholds Thresholds(const Map& map) const {
     return adaptive_.In(map.view().thresholds, matching_.thresholds);
   }
+  // Whether constant velocity can be trusted to lead to this frame.
+  bool IsExpectable(const Frame& frame) const;
+  void ForgetExpected();
   bool TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result);
   bool TrackReferenceKeyFrame(const Map& map, Frame& frame);
   bool Recover(const Map& map, Frame& frame);
   MatchingThresholds LoosestThresholds(const Map& map) const;
   bool TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const;
-  int TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result);
+  // Whether enough points agree with the pose.
+  bool TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result);
   TrackingResult Refuse(FrameRefusal refusal, Frame& frame, TrackingResult result);
   TrackingResult Conclude(const Map& map, const Frame& frame, TrackingResult result);
   void Remember(const Frame& frame);
@@ -89,6 +93,8 @@ class Tracker {
   Frame last_;
   bool last_was_tracked_ = false;
   std::optional<Rigid3d> velocity_;  // cam_from_last_cam
+  std::int64_t velocity_interval_ns_ = 0;
+  int num_by_motion_ = 0;  // frames in a row that constant velocity led to
   MotionPrior prior_;
   KeyFrameId reference_;
   int frames_since_keyframe_ = 0;

@@ -14,9 +14,11 @@ struct TrackerOptions {
   double search_radius_px = 5.0;
   // Share of the last frame's points that must be found, else the window is widened three times.
   double min_match_share = 0.4;
-  int min_matches = 20;              // with the last frame; else the next, wider search
-  int min_inliers_first = 10;        // after the first pose optimisation
-  int min_inliers = 30;              // after the local map; fewer: lost
+  int min_matches = 20;        // with the last frame; else the next, wider search
+  int min_inliers_first = 10;  // after the first pose optimisation
+  int min_inliers = 30;        // after the local map; fewer: lost
+  // The same for a frame that is held to the place where the motion prior expects it.
+  int min_inliers_expected = 20;
   int min_relocalised_inliers = 50;  // the same for a lost frame found by its look (as ORB-SLAM)
   // Share of the points that such a frame should see and does, over the usual share: where only a
   // texture repeats, most of them are missing.
@@ -37,6 +39,8 @@ struct TrackerOptions {
     visitor.Field("min_inliers_first", min_inliers_first,
                   "points that must agree with the first pose");
     visitor.Field("min_inliers", min_inliers, "tracked points below which a frame is lost");
+    visitor.Field("min_inliers_expected", min_inliers_expected,
+                  "the same for a frame that is held to its expected place as well");
     visitor.Field("min_relocalised_inliers", min_relocalised_inliers,
                   "tracked points that a lost frame found by its look needs");
     visitor.Field("min_relocalised_ratio", min_relocalised_ratio,

@@ -80,6 +80,36 @@ TEST_F(TrackingTest, NewPointsFollowLooseTrackingOnlyWhereTheFeaturesSaySo) {
   EXPECT_EQ(tracker.MappingThresholds(map).low, 50.0F);
 }
 
+// 25 frames of a steady motion with all points, then one with 25 of them: fewer than tracking needs
+// by itself.
+FrameRefusal RefusalOfAFrameThatSeesLittle(SyntheticFrames& scene, const TrackerOptions& options,
+                                           std::int64_t last_interval_ns) {
+  Map map(scene.view());
+  const std::vector<MapPointId> points = scene.FillMap({CameraAt(0.0), CameraAt(0.02)}, map);
+  Frame last = scene.MakeFrame(1, CameraAt(0.02));
+  last.map_points = map.keyframe(map.newest_keyframe()).map_points;
+  Tracker tracker(options, MatchingOptions(), 0);
+  tracker.Start(map, last, std::nullopt);
+  for (int k = 2; k < 27; ++k) {
+    Frame frame = scene.MakeFrame(k, CameraAt(0.02 * k), 0.3);
+    EXPECT_EQ(tracker.Track(map, frame).refusal, FrameRefusal::kNone);
+    last = frame;
+  }
+  for (std::size_t i = 25; i < points.size(); ++i) map.ErasePoint(points[i]);
+  Frame frame = scene.MakeFrame(27, CameraAt(0.02 * 27), 0.3);
+  frame.timestamp_ns = last.timestamp_ns + last_interval_ns;
+  return tracker.Track(map, frame).refusal;
+}
+
+TEST_F(TrackingTest, AFrameThatSeesLittleIsTrackedWhereItIsExpected) {
+  constexpr std::int64_t kInterval = 100'000'000;  // that of all frames
+  EXPECT_EQ(RefusalOfAFrameThatSeesLittle(scene_, {}, kInterval), FrameRefusal::kNone);
+  EXPECT_NE(RefusalOfAFrameThatSeesLittle(scene_, {}, 2 * kInterval), FrameRefusal::kNone);
+  TrackerOptions without;
+  without.motion_prior.min_matches = 0;
+  EXPECT_NE(RefusalOfAFrameThatSeesLittle(scene_, without, kInterval), FrameRefusal::kNone);
+}
+
 TEST_F(TrackingTest, AnotherSceneIsRefusedWithAReasonAndLeavesNoMatches) {
   scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
   Frame last = scene_.MakeFrame(1, CameraAt(0.2));

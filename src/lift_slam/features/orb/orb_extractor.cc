@@ -4,10 +4,13 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <opencv2/core/version.hpp>
 #include <thread>
 
 #include "lift_slam/features/orb/corner_orientation.h"
 #include "lift_slam/features/orb/corner_refinement.h"
+#include "lift_slam/util/option_root.h"
+#include "lift_slam/util/option_writer.h"
 
 namespace lift_slam {
 namespace {
@@ -123,6 +126,13 @@ std::vector<Corner> OrbExtractor::DetectCorners(const GrayImage& image, int coun
 
 std::unique_ptr<FeatureExtractor> CreateOrbExtractor(const OrbOptions& options) {
   return std::make_unique<OrbExtractor>(options);
+}
+
+std::string OrbIdentity(OrbOptions options) {
+  const OrbOptions defaults;
+  options.num_threads = defaults.num_threads;
+  options.sigma_px = defaults.sigma_px;
+  return "orb, OpenCV " CV_VERSION "\n" + OptionsToYaml(MakeOptionRoot(options));
 }
 
 }  // namespace lift_slam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "lift_slam/features/feature_extractor.h"
@@ -54,5 +55,9 @@ class OrbExtractor : public FeatureExtractor {
 };
 
 std::unique_ptr<FeatureExtractor> CreateOrbExtractor(const OrbOptions& options);
+
+// All that decides what the features of an image are, for FeatureCache: equal for options that only
+// change times or what is made of the features.
+std::string OrbIdentity(OrbOptions options);
 
 }  // namespace lift_slam

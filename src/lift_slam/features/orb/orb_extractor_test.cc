@@ -156,5 +156,15 @@ TEST(OrbExtractor, RefusesOptionsOutOfRange) {
   EXPECT_THROW(CreateOrbExtractor({.num_threads = 0}), InputError);
 }
 
+TEST(OrbExtractor, IdentityTellsOptionsApartThatChangeFeatures) {
+  OrbOptions options;
+  const std::string identity = OrbIdentity(options);
+  options.num_threads = 2;
+  options.sigma_px = 2.0;
+  EXPECT_EQ(OrbIdentity(options), identity);
+  options.fast_threshold = 30;
+  EXPECT_NE(OrbIdentity(options), identity);
+}
+
 }  // namespace
 }  // namespace lift_slam

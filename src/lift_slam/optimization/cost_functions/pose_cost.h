@@ -30,6 +30,7 @@ class PoseObservationArrays {
 //   x_in_cam = Exp(w) (base_cam_from_world * x_in_world) + d.
 // Cost: 1/2 sum rho(e_i), e_i = weight_i |Project(x_in_cam) - pixel_i|^2, with Huber's
 // rho(e) = e for e <= huber_width^2, else 2 huber_width sqrt(e) - huber_width^2.
+// A prior adds 1/2 inverse_variance |centre - center_in_world|^2, without a loss.
 // Residuals and Jacobian are those of compressed_normal_equations.h. A pose that puts a point
 // behind the camera has infinite cost.
 class PoseCost {
@@ -52,7 +53,7 @@ class PoseCost {
 
   // The pose that the parameters stand for.
   Rigid3d CamFromWorld(const Eigen::Matrix<double, 6, 1>& parameters) const;
-  // sum rho(e_i); infinity with a point behind the camera.
+  // sum rho(e_i) and the prior's; infinity with a point behind the camera.
   double SquaredNorm(const Eigen::Matrix<double, 6, 1>& parameters) const;
   NormalEquations<6> Evaluate(const Eigen::Matrix<double, 6, 1>& parameters) const;
 
