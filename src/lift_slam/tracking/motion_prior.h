@@ -12,8 +12,9 @@ namespace lift_slam {
 struct MotionPriorOptions {
   // Matches of a frame from which on it is placed by what it sees alone; 0: every frame is.
   int min_matches = 200;
-  // Least standard deviation of the expected place over the way from frame to frame: a car's.
-  double min_change_ratio = 0.02;
+  // Least standard deviation of the expected place over the way from frame to frame: a car that
+  // brakes.
+  double min_change_ratio = 0.04;
 
   void Visit(OptionVisitor& visitor) {
     visitor.Field(
