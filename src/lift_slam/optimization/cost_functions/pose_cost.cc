@@ -97,21 +97,24 @@ inline void Accumulate(const PinholeIntrinsics& intrinsics, const Group& group, 
   sums.loss += group.loss;
 }
 
-// The prior as the point of the expected centre, seen at the camera's own.
-void AddPrior(const CenterPrior& prior, const Motion& motion, NormalEquations<6>& equations) {
-  if (!(prior.inverse_variance > 0.0)) return;
-  const Eigen::Vector3d rotated = motion.rotation * prior.center_in_world + motion.offset;
-  const Eigen::Vector3d error = rotated + motion.shift;
-  Eigen::Matrix<double, 3, 6> jacobian;
-  jacobian << -SkewSymmetric(rotated), Eigen::Matrix3d::Identity();
-  equations.hessian += prior.inverse_variance * jacobian.transpose() * jacobian;
-  equations.gradient += prior.inverse_variance * jacobian.transpose() * error;
-  equations.squared_norm += prior.inverse_variance * error.squaredNorm();
+// The error of a prior: the expected centre in the camera's frame, where the centre is 0.
+Eigen::Vector3d ExpectedInCam(const CenterPrior& prior, const Motion& motion) {
+  return motion.rotation * prior.center_in_world + motion.offset + motion.shift;
 }
 
 double PriorCost(const CenterPrior& prior, const Motion& motion) {
-  return prior.inverse_variance *
-         (motion.rotation * prior.center_in_world + motion.offset + motion.shift).squaredNorm();
+  return prior.inverse_variance * ExpectedInCam(prior, motion).squaredNorm();
+}
+
+// Jacobian by [w, d] before LeftJacobianSo3, as in Accumulate.
+void AddPrior(const CenterPrior& prior, const Motion& motion, NormalEquations<6>& equations) {
+  if (!(prior.inverse_variance > 0.0)) return;
+  const Eigen::Vector3d error = ExpectedInCam(prior, motion);
+  Eigen::Matrix<double, 3, 6> jacobian;
+  jacobian << -SkewSymmetric(error - motion.shift), Eigen::Matrix3d::Identity();
+  equations.hessian += prior.inverse_variance * jacobian.transpose() * jacobian;
+  equations.gradient += prior.inverse_variance * jacobian.transpose() * error;
+  equations.squared_norm += PriorCost(prior, motion);
 }
 
 NormalEquations<6> ToNormalEquations(const Sums& sums, const CenterPrior& prior,

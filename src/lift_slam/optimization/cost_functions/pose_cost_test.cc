@@ -39,6 +39,17 @@ class PoseCostTest : public testing::Test {
     return sum;
   }
 
+  // Away from the base pose.
+  void ExpectGradientOfDifferences(const PoseCost& cost) const {
+    const Vector6d gradient = cost.Evaluate(parameters_).gradient;
+    for (int k = 0; k < 6; ++k) {
+      const Vector6d step = 1e-6 * Vector6d::Unit(k);
+      const double difference =
+          (cost.SquaredNorm(parameters_ + step) - cost.SquaredNorm(parameters_ - step)) / 2e-6;
+      EXPECT_NEAR(gradient[k], 0.5 * difference, 1e-6 * gradient.norm());
+    }
+  }
+
   PoseScene scene_;
   PoseObservationArrays arrays_;
   const Vector6d parameters_ = (Vector6d() << 0.02, -0.3, 0.04, 0.3, 0.1, -0.2).finished();
@@ -60,13 +71,7 @@ TEST_F(PoseCostTest, GradientMatchesDifferencesAwayFromTheBasePose) {
   Make(3.0);
   for (const double width : {3.0, kInfinity}) {
     const PoseCost cost(scene_.intrinsics, scene_.cam_from_world, width, arrays_);
-    const Vector6d gradient = cost.Evaluate(parameters_).gradient;
-    for (int k = 0; k < 6; ++k) {
-      const Vector6d step = 1e-6 * Vector6d::Unit(k);
-      const double difference =
-          (cost.SquaredNorm(parameters_ + step) - cost.SquaredNorm(parameters_ - step)) / 2e-6;
-      EXPECT_NEAR(gradient[k], 0.5 * difference, 1e-6 * gradient.norm());
-    }
+    ExpectGradientOfDifferences(cost);
   }
 }
 
@@ -79,24 +84,21 @@ TEST_F(PoseCostTest, PriorAddsTheWeightedSquaredDistanceOfTheCenters) {
   EXPECT_NEAR(cost.SquaredNorm(Vector6d::Zero()) - without.SquaredNorm(Vector6d::Zero()),
               0.5 * 14.0, 1e-9);
   EXPECT_NEAR(cost.SquaredNorm(parameters_), cost.Evaluate(parameters_).squared_norm, 1e-9);
-  const Vector6d gradient = cost.Evaluate(parameters_).gradient;
-  for (int k = 0; k < 6; ++k) {
-    const Vector6d step = 1e-6 * Vector6d::Unit(k);
-    const double difference =
-        (cost.SquaredNorm(parameters_ + step) - cost.SquaredNorm(parameters_ - step)) / 2e-6;
-    EXPECT_NEAR(gradient[k], 0.5 * difference, 1e-6 * gradient.norm());
-  }
+  ExpectGradientOfDifferences(cost);
 }
 
 TEST_F(PoseCostTest, HessianIsThatOfTheGradientAtAPerfectFit) {
   Make(0.0);  // without residuals J^T J is the whole second derivative
-  const PoseCost cost(scene_.intrinsics, scene_.cam_from_world, kInfinity, arrays_);
-  const Eigen::Matrix<double, 6, 6> hessian = cost.Evaluate(Vector6d::Zero()).hessian;
-  for (int k = 0; k < 6; ++k) {
-    const Vector6d step = 1e-6 * Vector6d::Unit(k);
-    const Vector6d difference =
-        (cost.Evaluate(step).gradient - cost.Evaluate(-step).gradient) / 2e-6;
-    EXPECT_LT((hessian.col(k) - difference).norm(), 1e-6 * hessian.norm());
+  for (const double of_prior : {0.0, 1e4}) {
+    const CenterPrior prior{scene_.cam_from_world.TargetOriginInSource(), of_prior};
+    const PoseCost cost(scene_.intrinsics, scene_.cam_from_world, kInfinity, arrays_, prior);
+    const Eigen::Matrix<double, 6, 6> hessian = cost.Evaluate(Vector6d::Zero()).hessian;
+    for (int k = 0; k < 6; ++k) {
+      const Vector6d step = 1e-6 * Vector6d::Unit(k);
+      const Vector6d difference =
+          (cost.Evaluate(step).gradient - cost.Evaluate(-step).gradient) / 2e-6;
+      EXPECT_LT((hessian.col(k) - difference).norm(), 1e-6 * hessian.norm());
+    }
   }
 }
 
