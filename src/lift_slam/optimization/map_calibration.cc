@@ -1,30 +1,38 @@
 #include "lift_slam/optimization/map_calibration.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
+#include "lift_slam/optimization/calibration_consensus.h"
 #include "lift_slam/optimization/map_bundle_problem.h"
 
 namespace lift_slam {
 namespace {
 
-struct Windows {
-  std::vector<KeyFrameId> firsts, others;
-};
+using Window = std::vector<KeyFrameId>;  // consecutive keyframes
 
 // Evenly spread over the map, the first and the last keyframe among them; without overlap.
-Windows SpreadWindows(const SelfCalibrationOptions& options, const Map& map) {
+std::vector<Window> SpreadWindows(const SelfCalibrationOptions& options, const Map& map) {
   const std::vector<KeyFrameId> ids = map.KeyFrameIds();
   const int length = std::max(2, options.window_keyframes);
   const int count = std::max(1, options.max_keyframes / length);
   const int slack = static_cast<int>(ids.size()) - length;
-  Windows windows;
+  std::vector<Window> windows;
   for (int i = 0; i < count; ++i) {
     const int begin = count > 1 ? static_cast<int>(std::int64_t{i} * slack / (count - 1)) : 0;
-    const auto first = ids.begin() + begin;
-    windows.firsts.push_back(*first);
-    windows.others.insert(windows.others.end(), first + 1, first + length);
+    windows.emplace_back(ids.begin() + begin, ids.begin() + begin + length);
   }
   return windows;
+}
+
+SelfCalibrationReport EstimateFrom(const Window& window, const SelfCalibrationOptions& options,
+                                   const Map& map) {
+  BundleIndex index;
+  BundleProblem problem =
+      MakeBundleProblem({window.begin() + 1, window.end()}, {window.front()}, map, index);
+  DropUndeterminedPoints(index, problem);
+  return SelfCalibrate(problem, options);
 }
 
 bool IsPossible(const SelfCalibrationOptions& options, const Map& map) {
@@ -49,11 +57,20 @@ SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Ma
 
 SelfCalibrationReport EstimateCalibration(const SelfCalibrationOptions& options, const Map& map) {
   if (!IsPossible(options, map)) return {};
-  const Windows windows = SpreadWindows(options, map);
-  BundleIndex index;
-  BundleProblem problem = MakeBundleProblem(windows.others, windows.firsts, map, index);
-  DropUndeterminedPoints(index, problem);
-  return SelfCalibrate(problem, options);
+  SelfCalibrationReport sum;
+  std::vector<CalibrationCorrection> parts;
+  for (const Window& window : SpreadWindows(options, map)) {
+    const SelfCalibrationReport part = EstimateFrom(window, options, map);
+    if (!part.usable) continue;
+    parts.push_back(part.correction);
+    sum.initial_cost += part.initial_cost;
+    sum.final_cost += part.final_cost;
+    sum.iterations += part.iterations;
+  }
+  if (parts.size() < 2) return sum;
+  sum.usable = true;
+  sum.correction = Consensus(parts, options);
+  return sum;
 }
 
 }  // namespace lift_slam

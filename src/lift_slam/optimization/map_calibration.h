@@ -14,8 +14,9 @@ bool IsCalibratedAsAWhole(const SelfCalibrationOptions& options, const Map& map)
 // fewer than min_keyframes, or when it is switched off.
 SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Map& map);
 
-// The correction that fits windows of consecutive keyframes best; each window's first pose is held
-// fixed. The map stays as it is.
+// The correction that windows of consecutive keyframes agree on (Consensus), each adjusted by
+// itself with its first pose held fixed. Not usable with fewer than two windows. The map stays as
+// it is.
 SelfCalibrationReport EstimateCalibration(const SelfCalibrationOptions& options, const Map& map);
 
 }  // namespace lift_slam

@@ -27,7 +27,7 @@ struct SelfCalibrationOptions {
   // Maps of more keyframes are calibrated on so many, in windows of consecutive ones spread over
   // the map: enough for two unknowns, and the time no longer grows with the map.
   int max_keyframes = 400;
-  int window_keyframes = 100;
+  int window_keyframes = 50;
   int max_iterations = 30;
   double function_tolerance = 1e-5;
 
@@ -39,7 +39,7 @@ struct SelfCalibrationOptions {
     visitor.Field("min_keyframes", min_keyframes, "keyframes a map needs for it");
     visitor.Field("max_keyframes", max_keyframes,
                   "keyframes it takes at most, spread over the map");
-    visitor.Field("window_keyframes", window_keyframes, "consecutive keyframes it takes together");
+    visitor.Field("window_keyframes", window_keyframes, "consecutive keyframes of one estimate");
     visitor.Field("max_iterations", max_iterations, "iterations of the solver at most");
     visitor.Field("function_tolerance", function_tolerance,
                   "relative change of the cost that ends the solver");
