@@ -170,7 +170,8 @@ void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
   command.add_option("--weights", request.weights, "Of matching: LIFT again with these files");
   command.add_option("--pairs", request.pairs, "Of matching: first images of each sequence")
       ->capture_default_str();
-  command.add_option("--sequences", request.sequences, "Only these of the suite");
+  command.add_option("--sequences", request.sequences,
+                     "Only these, of the suite or others below --data");
   command.add_option("--conditions", request.conditions,
                      "Distortions, 'none' for images as they are (default: the suite's)");
   command.add_option("--runs", request.runs, "Of each, with seeds 0, 1, ... (default 5)");

@@ -141,6 +141,16 @@ TEST_F(BenchmarkCommand, ConditionsBecomeRowsAndAChart) {
   EXPECT_THAT(ReadText(output_ / "figures/ate_06.svg"), HasSubstr(">salt-pepper=0.05<"));
 }
 
+TEST_F(BenchmarkCommand, ASuiteTakesOtherSequencesThatAreNamed) {
+  Render(SequenceLayout::kKittiOdometry, 12);
+  const std::string plan = Arguments("plan robustness", "default_orb") + " --runs 1 --sequences ";
+  const Outcome outcome = RunProgram(plan + "00");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("plan        11 runs"));
+  ExpectOneSentence(RunProgram(plan + "garage"),
+                    {"'garage' is neither in the suite 'robustness' nor below"});
+}
+
 TEST_F(BenchmarkCommand, TrajectoriesOfOthersJoin) {
   Render(SequenceLayout::kKittiOdometry, 40);
   ASSERT_EQ(RunProgram(Arguments("kitti", "default_orb") + " --runs 1").exit_code, 0);

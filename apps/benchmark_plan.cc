@@ -248,11 +248,19 @@ BenchmarkJob JobFromJson(const Json& json) {
 
 std::vector<BenchmarkSequence> ChosenSequences(const BenchmarkRequest& request) {
   auto sequences = FindBenchmarkSequences(request.suite, request.data);
+  std::vector<BenchmarkSequence> others;
   for (const std::string& wanted : request.sequences) {
-    if (std::ranges::none_of(sequences, [&](const auto& s) { return s.name == wanted; })) {
-      throw InputError(
-          fmt::format("--sequences: '{}' is not in the suite '{}'", wanted, request.suite));
+    const auto is_wanted = [&](const BenchmarkSequence& sequence) {
+      return sequence.name == wanted;
+    };
+    if (std::ranges::any_of(sequences, is_wanted)) continue;
+    if (others.empty()) others = FindBenchmarkSequences("shared", request.data);
+    const auto other = std::ranges::find_if(others, is_wanted);
+    if (other == others.end()) {
+      throw InputError(fmt::format("--sequences: '{}' is neither in the suite '{}' nor below '{}'",
+                                   wanted, request.suite, request.data.string()));
     }
+    sequences.push_back(*other);
   }
   std::erase_if(sequences, [&](const BenchmarkSequence& sequence) {
     return !request.sequences.empty() && !Contains(request.sequences, sequence.name);
