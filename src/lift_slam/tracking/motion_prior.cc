@@ -19,7 +19,7 @@ constexpr double kStandingRatio = 0.1;
 }  // namespace
 
 void MotionPriorOptions::Check() const {
-  CheckOptionRange("motion_prior.min_matches", min_matches, 0, 100000);
+  CheckOptionRange("motion_prior.min_match_share", min_match_share, 0.0, 1.0);
   CheckOptionRange("motion_prior.min_change_ratio", min_change_ratio, 1e-4, 10.0);
 }
 
@@ -30,8 +30,9 @@ void MotionPrior::Expect(const Rigid3d& last_cam_from_world, const Rigid3d& cam_
 
 double MotionPrior::Way() const { return std::max(expected_->way, usual_way_); }
 
-CenterPrior MotionPrior::For(int num_matches) const {
-  if (!expected_ || num_matches >= options_.min_matches || num_learned_ < kMinLearned) return {};
+CenterPrior MotionPrior::For(int num_matches, int num_features) const {
+  const bool is_enough = num_matches >= options_.min_match_share * num_features;
+  if (!expected_ || is_enough || num_learned_ < kMinLearned) return {};
   const double sigma = std::max(kSigmaOfChange * change_ratio_, options_.min_change_ratio) * Way();
   if (!(sigma > 0.0)) return {};
   return {expected_->center, 1.0 / (sigma * sigma)};

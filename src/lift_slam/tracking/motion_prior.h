@@ -10,16 +10,18 @@
 namespace lift_slam {
 
 struct MotionPriorOptions {
-  // Matches of a frame from which on it is placed by what it sees alone; 0: every frame is.
-  int min_matches = 200;
+  // Share of a frame's features that are matched from which on it is placed by what it sees alone;
+  // 0: every frame is. A share, since there are half as many of LIFT's as of ORB's.
+  double min_match_share = 0.15;
   // Least standard deviation of the expected place over the way from frame to frame: a car that
   // brakes.
   double min_change_ratio = 0.04;
 
   void Visit(OptionVisitor& visitor) {
     visitor.Field(
-        "min_matches", min_matches,
-        "matches below which the place expected by constant velocity counts too; 0: never");
+        "min_match_share", min_match_share,
+        "matched share of the features below which the place expected by constant velocity counts "
+        "too; 0: never");
     visitor.Field("min_change_ratio", min_change_ratio,
                   "least uncertainty of that place over the way from frame to frame");
   }
@@ -44,7 +46,7 @@ class MotionPrior {
 
   // None when the frame has enough matches, was not expected anywhere, or what is usual is not
   // known yet.
-  CenterPrior For(int num_matches) const;
+  CenterPrior For(int num_matches, int num_features) const;
   // The frame was found there.
   void Learn(const Rigid3d& cam_from_world);
   // Lengths of the map were multiplied by `scale`.

@@ -9,7 +9,7 @@
 namespace lift_slam {
 namespace {
 
-constexpr int kFew = 100, kMany = 300;
+constexpr int kFew = 100, kMany = 300, kFeatures = 2000;
 
 Rigid3d CameraAt(double x) {
   return {Eigen::Quaterniond::Identity(), Eigen::Vector3d(-x, 0.0, 0.0)};
@@ -20,7 +20,7 @@ class MotionPriorTest : public testing::Test {
   // Of a frame that is expected `way` further on.
   double Sigma(double way = 1.0) {
     prior_.Expect(CameraAt(1.0), CameraAt(1.0 + way));
-    return 1.0 / std::sqrt(prior_.For(kFew).inverse_variance);
+    return 1.0 / std::sqrt(prior_.For(kFew, kFeatures).inverse_variance);
   }
   void LearnChange(double ratio) {
     for (int i = 0; i < 500; ++i) {
@@ -29,14 +29,14 @@ class MotionPriorTest : public testing::Test {
     }
   }
 
-  MotionPrior prior_{{.min_matches = 200, .min_change_ratio = 0.02}};
+  MotionPrior prior_{{.min_match_share = 0.1, .min_change_ratio = 0.02}};
 };
 
 TEST_F(MotionPriorTest, IsWhereConstantVelocityLeads) {
   LearnChange(0.1);
   prior_.Expect(CameraAt(1.0), CameraAt(3.0));
-  EXPECT_EQ(prior_.For(kFew).center_in_world, Eigen::Vector3d(3.0, 0.0, 0.0));
-  EXPECT_GT(prior_.For(kFew).inverse_variance, 0.0);
+  EXPECT_EQ(prior_.For(kFew, kFeatures).center_in_world, Eigen::Vector3d(3.0, 0.0, 0.0));
+  EXPECT_GT(prior_.For(kFew, kFeatures).inverse_variance, 0.0);
 }
 
 TEST_F(MotionPriorTest, SaysNothingBeforeItKnowsWhatIsUsual) {
@@ -45,7 +45,7 @@ TEST_F(MotionPriorTest, SaysNothingBeforeItKnowsWhatIsUsual) {
     prior_.Learn(CameraAt(1.1));
   }
   prior_.Expect(CameraAt(0.0), CameraAt(1.0));
-  EXPECT_EQ(prior_.For(kFew).inverse_variance, 0.0);
+  EXPECT_EQ(prior_.For(kFew, kFeatures).inverse_variance, 0.0);
   prior_.Learn(CameraAt(1.1));
   EXPECT_NEAR(Sigma(), 0.04, 1e-6);
 }
@@ -53,11 +53,11 @@ TEST_F(MotionPriorTest, SaysNothingBeforeItKnowsWhatIsUsual) {
 TEST_F(MotionPriorTest, SaysNothingWhereTheFrameSeesEnoughOrNothingIsExpected) {
   LearnChange(0.1);
   prior_.Forget();
-  EXPECT_EQ(prior_.For(kFew).inverse_variance, 0.0);
+  EXPECT_EQ(prior_.For(kFew, kFeatures).inverse_variance, 0.0);
   prior_.Expect(CameraAt(1.0), CameraAt(3.0));
-  EXPECT_EQ(prior_.For(kMany).inverse_variance, 0.0);
+  EXPECT_EQ(prior_.For(kMany, kFeatures).inverse_variance, 0.0);
   prior_.Forget();
-  EXPECT_EQ(prior_.For(kFew).inverse_variance, 0.0);
+  EXPECT_EQ(prior_.For(kFew, kFeatures).inverse_variance, 0.0);
 }
 
 TEST_F(MotionPriorTest, IsSureOfASteadyCameraAndUnsureOfAnUnsteadyOne) {
@@ -90,7 +90,7 @@ TEST_F(MotionPriorTest, OneJumpChangesLittle) {
 
 TEST_F(MotionPriorTest, OptionsOutOfRangeAreRefused) {
   EXPECT_NO_THROW(MotionPriorOptions().Check());
-  EXPECT_THROW((MotionPriorOptions{.min_matches = -1}.Check()), InputError);
+  EXPECT_THROW((MotionPriorOptions{.min_match_share = -0.1}.Check()), InputError);
   EXPECT_THROW((MotionPriorOptions{.min_change_ratio = 0.0}.Check()), InputError);
 }
 

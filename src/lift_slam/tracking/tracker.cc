@@ -163,7 +163,8 @@ bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult&
                                  result.thresholds.high, frame);
   }
   if (matches < options_.min_matches) return false;
-  const int inliers = OptimizeFramePose(map, options_.pose, frame, prior_.For(matches));
+  const int inliers =
+      OptimizeFramePose(map, options_.pose, frame, prior_.For(matches, frame.features->size()));
   if (inliers < options_.min_inliers_first) return false;
   result.num_last_matches = matches;
   result.num_last_outliers = matches - inliers;
@@ -229,7 +230,7 @@ bool Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& r
       map, local.points, wide ? kWideRadiusFactor : 1.0F, result.thresholds.high, frame);
   AlignMatches(map, frame);
   result.num_matches = frame.CountMatches();
-  const CenterPrior prior = prior_.For(result.num_matches);
+  const CenterPrior prior = prior_.For(result.num_matches, frame.features->size());
   result.num_inliers = OptimizeFramePose(map, options_.pose, frame, prior);
   result.num_visible = static_cast<int>(matched.visible.size());
   CountSightings(matched.visible, frame, map);

@@ -106,7 +106,7 @@ TEST_F(TrackingTest, AFrameThatSeesLittleIsTrackedWhereItIsExpected) {
   EXPECT_EQ(RefusalOfAFrameThatSeesLittle(scene_, {}, kInterval), FrameRefusal::kNone);
   EXPECT_NE(RefusalOfAFrameThatSeesLittle(scene_, {}, 2 * kInterval), FrameRefusal::kNone);
   TrackerOptions without;
-  without.motion_prior.min_matches = 0;
+  without.motion_prior.min_match_share = 0.0;
   EXPECT_NE(RefusalOfAFrameThatSeesLittle(scene_, without, kInterval), FrameRefusal::kNone);
 }
 
