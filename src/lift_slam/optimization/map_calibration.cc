@@ -15,12 +15,12 @@ using Window = std::vector<KeyFrameId>;  // consecutive keyframes
 // Evenly spread over the map, the first and the last keyframe among them; without overlap.
 std::vector<Window> SpreadWindows(const SelfCalibrationOptions& options, const Map& map) {
   const std::vector<KeyFrameId> ids = map.KeyFrameIds();
-  const int length = std::max(2, options.window_keyframes);
-  const int count = std::max(1, options.max_keyframes / length);
+  const int length = std::max(2, std::min(options.window_keyframes, options.max_keyframes / 2));
+  const int count = std::max(2, options.max_keyframes / length);
   const int slack = static_cast<int>(ids.size()) - length;
   std::vector<Window> windows;
   for (int i = 0; i < count; ++i) {
-    const int begin = count > 1 ? static_cast<int>(std::int64_t{i} * slack / (count - 1)) : 0;
+    const auto begin = static_cast<int>(std::int64_t{i} * slack / (count - 1));
     windows.emplace_back(ids.begin() + begin, ids.begin() + begin + length);
   }
   return windows;
@@ -57,20 +57,16 @@ SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Ma
 
 SelfCalibrationReport EstimateCalibration(const SelfCalibrationOptions& options, const Map& map) {
   if (!IsPossible(options, map)) return {};
-  SelfCalibrationReport sum;
+  SelfCalibrationReport report;
   std::vector<CalibrationCorrection> parts;
   for (const Window& window : SpreadWindows(options, map)) {
     const SelfCalibrationReport part = EstimateFrom(window, options, map);
-    if (!part.usable) continue;
-    parts.push_back(part.correction);
-    sum.initial_cost += part.initial_cost;
-    sum.final_cost += part.final_cost;
-    sum.iterations += part.iterations;
+    if (part.usable) parts.push_back(part.correction);
   }
-  if (parts.size() < 2) return sum;
-  sum.usable = true;
-  sum.correction = Consensus(parts, options);
-  return sum;
+  if (parts.size() < 2) return report;
+  report.usable = true;
+  report.correction = Consensus(parts, options);
+  return report;
 }
 
 }  // namespace lift_slam

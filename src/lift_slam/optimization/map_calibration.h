@@ -15,8 +15,8 @@ bool IsCalibratedAsAWhole(const SelfCalibrationOptions& options, const Map& map)
 SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Map& map);
 
 // The correction that windows of consecutive keyframes agree on (Consensus), each adjusted by
-// itself with its first pose held fixed. Not usable with fewer than two windows. The map stays as
-// it is.
+// itself with its first pose held fixed. Not usable where fewer than two have a result; costs and
+// iterations stay zero. The map stays as it is.
 SelfCalibrationReport EstimateCalibration(const SelfCalibrationOptions& options, const Map& map);
 
 }  // namespace lift_slam

@@ -46,6 +46,13 @@ TEST_F(MapCalibrationTest, WindowsOfALongMapFindTheFocalLength) {
   EXPECT_EQ(map_->keyframe(KeyFrameId(7)).cam_from_world.translation, before.translation);
 }
 
+TEST_F(MapCalibrationTest, TwoWindowsAreTakenHoweverLongTheyAreAskedFor) {
+  options_.window_keyframes = 15;
+  const SelfCalibrationReport report = EstimateCalibration(options_, *map_);
+  ASSERT_TRUE(report.usable);
+  EXPECT_NEAR(report.correction.focal_scale, kFocalScale, 2e-3);
+}
+
 TEST_F(MapCalibrationTest, BundleWithTheCorrectionAgreesWithThePixels) {
   const SelfCalibrationReport estimate = EstimateCalibration(options_, *map_);
   ASSERT_TRUE(estimate.usable);

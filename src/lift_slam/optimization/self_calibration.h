@@ -27,7 +27,7 @@ struct SelfCalibrationOptions {
   // Maps of more keyframes are calibrated on so many, in windows of consecutive ones spread over
   // the map: enough for two unknowns, and the time no longer grows with the map.
   int max_keyframes = 400;
-  int window_keyframes = 50;
+  int window_keyframes = 50;  // at most half of max_keyframes: two have to agree
   int max_iterations = 30;
   double function_tolerance = 1e-5;
 
