@@ -66,7 +66,9 @@ DescriptorFileSource ParseHeader(std::span<const std::byte> bytes,
                                  const std::filesystem::path& path) {
   DescriptorFileHeader header;
   const bool is_whole = bytes.size() >= sizeof header;
-  std::memcpy(&header, bytes.data(), std::min(bytes.size(), sizeof header));
+  // Not memcpy: an empty file's bytes are at nullptr.
+  std::ranges::copy(bytes.first(std::min(bytes.size(), sizeof header)),
+                    std::as_writable_bytes(std::span(&header, 1)).begin());
   if (bytes.size() < header.magic.size() || header.magic != DescriptorFileHeader::kMagic) {
     throw InputError(fmt::format("{}: is no file of descriptors", path.string()));
   }

@@ -28,7 +28,9 @@ std::string KindName(const VocabularyHeader& header) {
 
 // Empty, or what is wrong with the file's begin.
 std::string HeaderFault(std::span<const std::byte> bytes, VocabularyHeader& header) {
-  std::memcpy(&header, bytes.data(), std::min(bytes.size(), sizeof header));
+  // Not memcpy: an empty file's bytes are at nullptr.
+  std::ranges::copy(bytes.first(std::min(bytes.size(), sizeof header)),
+                    std::as_writable_bytes(std::span(&header, 1)).begin());
   if (bytes.size() < header.magic.size() || header.magic != VocabularyHeader::kMagic) {
     return "is no vocabulary of lift_slam";
   }

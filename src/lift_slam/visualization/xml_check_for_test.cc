@@ -1,6 +1,7 @@
 #include "lift_slam/visualization/xml_check_for_test.h"
 
-#include <regex>
+#include <algorithm>
+#include <cctype>
 #include <set>
 #include <vector>
 
@@ -9,12 +10,23 @@ namespace {
 
 const std::set<std::string> kVoid = {"meta", "br", "img", "input", "link", "hr"};
 const std::set<std::string> kRaw = {"script", "style"};
+const std::set<std::string> kEntities = {"amp", "lt", "gt", "quot", "middot"};
 
+bool IsNumber(std::string_view text) {
+  return text.size() > 1 && text[0] == '#' &&
+         std::all_of(text.begin() + 1, text.end(), [](unsigned char c) { return std::isdigit(c); });
+}
+
+// No '>' and no '&' but of an entity in use.
 bool GoodText(const std::string& text) {
   if (text.find('>') != std::string::npos) return false;
-  static const std::regex entity("&(amp|lt|gt|quot|middot|#[0-9]+);");
-  const std::string rest = std::regex_replace(text, entity, "");
-  return rest.find('&') == std::string::npos;
+  for (std::size_t i = text.find('&'); i != std::string::npos; i = text.find('&', i + 1)) {
+    const std::size_t end = text.find(';', i);
+    if (end == std::string::npos) return false;
+    const std::string name = text.substr(i + 1, end - i - 1);
+    if (!kEntities.contains(name) && !IsNumber(name)) return false;
+  }
+  return true;
 }
 
 // Name of a start tag; empty when its attributes are malformed or repeated.
