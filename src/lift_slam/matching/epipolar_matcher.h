@@ -11,7 +11,7 @@ struct EpipolarMatchOptions {
   double max_epipolar_error_px = 2.0;  // on level 0; grows with the level's scale
   // Nearest over second nearest distance on the line: of bits, whose number grows as the square of
   // what a float descriptor calls distance, and of floats. Looser, crash barriers and road surfaces
-  // give LIFT points with the wrong depth that agree with one another (docs/accuracy.md).
+  // give LIFT points with the wrong depth that agree with one another (docs/scale.md).
   double max_descriptor_ratio = 0.9;
   double max_descriptor_ratio_of_floats = 0.8;
   double min_epipole_distance_px = 10.0;  // too near the epipole a point's depth is unknown

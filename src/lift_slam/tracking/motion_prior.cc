@@ -11,7 +11,7 @@ constexpr int kMinLearned = 20;      // frames before anything is expected
 constexpr double kSmoothing = 0.02;  // weight of a frame in what is usual, once this is known
 constexpr double kMaxRise = 3.0;     // a frame's change counts up to this multiple of the usual one
 // Standard deviation along an axis over the usual distance, which has three axes (1.6 sigma on
-// average) and the noise of the three places that it comes from. Measured: docs/accuracy.md.
+// average) and the noise of the three places that it comes from. Measured: docs/scale.md.
 constexpr double kSigmaOfChange = 0.4;
 // Below this share of the usual way the camera stands; it may start again as it usually changes.
 constexpr double kStandingRatio = 0.1;

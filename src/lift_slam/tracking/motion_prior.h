@@ -32,7 +32,7 @@ struct MotionPriorOptions {
 // Where the camera is expected by constant velocity, and how far from there it usually is, which
 // the run shows: it says much of a car and little of a hand. Over a crest, where what was near is
 // gone and only far things and repeated ones (a crash barrier) are seen, such a place keeps the
-// scale, which is otherwise lost without a sign (docs/accuracy.md). Not in the paper, nor in
+// scale, which is otherwise lost without a sign (docs/scale.md). Not in the paper, nor in
 // ORB-SLAM. Where all frames see little, what is usual is learned from frames that the prior had a
 // share in, and may fall to the least.
 class MotionPrior {
