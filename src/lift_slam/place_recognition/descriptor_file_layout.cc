@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "lift_slam/place_recognition/file_header.h"
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/checksum64.h"
 #include "lift_slam/util/input_error.h"
@@ -64,11 +65,8 @@ DescriptorFileHeader MakeHeader(const DescriptorFileSource& source) {
 
 DescriptorFileSource ParseHeader(std::span<const std::byte> bytes,
                                  const std::filesystem::path& path) {
-  DescriptorFileHeader header;
+  const auto header = ReadHeader<DescriptorFileHeader>(bytes);
   const bool is_whole = bytes.size() >= sizeof header;
-  // Not memcpy: an empty file's bytes are at nullptr.
-  std::ranges::copy(bytes.first(std::min(bytes.size(), sizeof header)),
-                    std::as_writable_bytes(std::span(&header, 1)).begin());
   if (bytes.size() < header.magic.size() || header.magic != DescriptorFileHeader::kMagic) {
     throw InputError(fmt::format("{}: is no file of descriptors", path.string()));
   }

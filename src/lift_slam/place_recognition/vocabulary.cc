@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "lift_slam/place_recognition/file_header.h"
 #include "lift_slam/place_recognition/vocabulary_layout.h"
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/checksum64.h"
@@ -28,9 +29,7 @@ std::string KindName(const VocabularyHeader& header) {
 
 // Empty, or what is wrong with the file's begin.
 std::string HeaderFault(std::span<const std::byte> bytes, VocabularyHeader& header) {
-  // Not memcpy: an empty file's bytes are at nullptr.
-  std::ranges::copy(bytes.first(std::min(bytes.size(), sizeof header)),
-                    std::as_writable_bytes(std::span(&header, 1)).begin());
+  header = ReadHeader<VocabularyHeader>(bytes);
   if (bytes.size() < header.magic.size() || header.magic != VocabularyHeader::kMagic) {
     return "is no vocabulary of lift_slam";
   }
