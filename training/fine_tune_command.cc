@@ -76,6 +76,8 @@ TrainingOptions FineTuningDefaults() {
     schedule->learning_rate = kLearningRate;
     schedule->steps = kSteps;
   }
+  // The first wrong points are easy ones for random weights only: these know the hard ones already.
+  options.descriptor.easy_steps = 0;
   // The angle between two real views is not known.
   options.orientation.loss = OrientationLoss::kDescriptor;
   return options;
@@ -142,6 +144,10 @@ void FineTune(FineTuneArguments& arguments) {
   const fs::path file = arguments.output / "weights.safetensors";
   WriteLiftWeights(weights, file);
   std::cout << fmt::format("{}: SHA-256 {}\n", file.string(), weights.sha256);
+  if (arguments.modules == "orientation") {
+    std::cout << "Only the orientation was trained: lift_slam uses it with --set "
+                 "slam.lift.upright=false (--modules all trains the others too)\n";
+  }
 }
 
 }  // namespace

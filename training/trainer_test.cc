@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <fstream>
+#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 
 #include "lift_slam/features/lift/lift_extractor.h"
@@ -187,6 +189,10 @@ TEST(FineTune, AlsoLeavesWeightsWhenItEndsEarly) {
   EXPECT_EQ(tuned.name, "fine-tuned (orientation, not to the end)");
   EXPECT_EQ(tuned.distances, from.distances);
   EXPECT_EQ(tuned.descriptor_ranges, from.descriptor_ranges);
+  // Good weights are shown the hardest wrong points from the first step on.
+  std::ifstream settings(folder / "tuned/orientation/settings.yaml");
+  const std::string text(std::istreambuf_iterator<char>(settings), {});
+  EXPECT_THAT(text, testing::HasSubstr("easy_steps: 0\n"));
 }
 
 TEST(Trainer, RefusesWhatCannotBe) {
