@@ -7,10 +7,12 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 
 namespace lift_slam {
 namespace {
 
+constexpr double kMaxDeviationPx = 0.1;
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 struct Run {
@@ -60,6 +62,20 @@ void ThinByDistance(const PixelLine& line, const Run& run, double tolerance_px, 
   }
 }
 
+// Of a stretch, only what is needed to stay within kMaxDeviationPx of all its points.
+void Straighten(const PixelLine& stretch, PixelLine& out) {
+  std::vector<cv::Point2f> points(stretch.x.size()), corners;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = {static_cast<float>(stretch.x[i]), static_cast<float>(stretch.y[i])};
+  }
+  constexpr bool kClosed = false;
+  cv::approxPolyDP(points, corners, kMaxDeviationPx, kClosed);
+  for (const cv::Point2f& corner : corners) {
+    out.x.push_back(corner.x);
+    out.y.push_back(corner.y);
+  }
+}
+
 }  // namespace
 
 PixelLine ThinnedOut(const PixelLine& line, double tolerance_px) {
@@ -71,11 +87,13 @@ PixelLine ThinnedOut(const PixelLine& line, double tolerance_px) {
     }
     const auto begin = line.x.begin() + static_cast<std::ptrdiff_t>(run.begin);
     const auto end = line.x.begin() + static_cast<std::ptrdiff_t>(run.end);
+    PixelLine stretch;
     if (std::is_sorted(begin, end)) {
-      ThinByColumn(line, run, out);
+      ThinByColumn(line, run, stretch);
     } else {
-      ThinByDistance(line, run, tolerance_px, out);
+      ThinByDistance(line, run, tolerance_px, stretch);
     }
+    Straighten(stretch, out);
   }
   return out;
 }

@@ -12,7 +12,8 @@ struct PixelLine {
 
 // Fewer points, the same picture: where x never decreases, only the first, lowest, highest and last
 // point of each pixel column stay (so peaks survive); elsewhere points closer than `tolerance_px`
-// to the one before go. Gaps stay gaps.
+// to the one before go. Of what is left, points go that the line through the others passes within a
+// tenth of a pixel. Gaps stay gaps.
 PixelLine ThinnedOut(const PixelLine& line, double tolerance_px = 0.7);
 
 // The `d` attribute of an SVG path, with a tenth of a pixel; a single point between gaps becomes a
