@@ -57,10 +57,27 @@ std::string Row(const std::string& title, const std::string& value) {
   return fmt::format("| {} | {} |\n", title, value);
 }
 
+// Of the options that were changed on the command line, those of all systems.
+std::vector<std::string> CommonOverrides(const BenchmarkPlan& plan) {
+  if (plan.jobs.empty()) return {};
+  std::vector<std::string> common = plan.jobs.front().overrides;
+  for (const BenchmarkJob& job : plan.jobs) {
+    std::erase_if(common, [&](const std::string& option) {
+      return std::ranges::find(job.overrides, option) == job.overrides.end();
+    });
+  }
+  return common;
+}
+
 std::string OriginTable(const BenchmarkPlan& plan, const Origin& origin) {
   std::string text = "| from | |\n| --- | --- |\n";
   text += Row("processor", fmt::format("{}", fmt::join(origin.processors, "; ")));
   text += Row("revision", fmt::format("{}", fmt::join(origin.revisions, ", ")));
+  const std::vector<std::string> overrides = CommonOverrides(plan);
+  if (!overrides.empty()) {
+    text += Row("set for every system", fmt::format("`{}`", fmt::join(overrides, " ")));
+  }
+  if (!plan.frames.empty()) text += Row("frames", plan.frames);
   text += Row("finished", fmt::format("{} of {} jobs", origin.finished, plan.jobs.size()));
   text += Row("date (UTC)", fmt::format("{}", fmt::join(origin.dates, ", ")));
   for (const auto& [name, hash] : plan.hashes) {
