@@ -35,6 +35,14 @@ SelfCalibrationReport EstimateFrom(const Window& window, const SelfCalibrationOp
   return SelfCalibrate(problem, options);
 }
 
+// A calibration that is not clearly off stays as it is.
+void RefuseSmallCorrection(const SelfCalibrationOptions& options, SelfCalibrationReport& report) {
+  if (report.usable && !IsClearlyOff(report.correction, options)) {
+    report.usable = false;
+    report.correction = CalibrationCorrection();
+  }
+}
+
 bool IsPossible(const SelfCalibrationOptions& options, const Map& map) {
   return options.enabled && map.num_keyframes() >= options.min_keyframes;
 }
@@ -51,6 +59,7 @@ SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Ma
   BundleIndex index;
   BundleProblem problem = MakeBundleProblem(map.KeyFrameIds(), {}, map, index);
   report = SelfCalibrate(problem, options);
+  RefuseSmallCorrection(options, report);
   if (report.usable) WritePosesAndPoints(index, problem, map);
   return report;
 }
@@ -66,6 +75,7 @@ SelfCalibrationReport EstimateCalibration(const SelfCalibrationOptions& options,
   if (parts.size() < 2) return report;
   report.usable = true;
   report.correction = Consensus(parts, options);
+  RefuseSmallCorrection(options, report);
   return report;
 }
 

@@ -8,7 +8,7 @@
 namespace lift_slam {
 namespace {
 
-constexpr double kFocalScale = 0.985;  // the true focal length over that the map believes in
+constexpr double kFocalScale = 0.975;  // the true focal length over that the map believes in
 
 // A map of 40 keyframes, made with the true camera and believed to be of a longer focal length.
 class MapCalibrationTest : public testing::Test {
@@ -69,6 +69,19 @@ TEST_F(MapCalibrationTest, ShortMapIsCalibratedAsAWhole) {
   const SelfCalibrationReport report = SelfCalibrateMap(options_, *map_);
   ASSERT_TRUE(report.usable);
   EXPECT_NEAR(report.correction.focal_scale, kFocalScale, 2e-3);
+}
+
+TEST_F(MapCalibrationTest, WhatIsNotClearlyOffStaysAsItIs) {
+  const Rigid3d before = map_->keyframe(KeyFrameId(7)).cam_from_world;
+  options_.focal_scale_error = 1.0 - kFocalScale;
+  SelfCalibrationReport report = EstimateCalibration(options_, *map_);
+  EXPECT_FALSE(report.usable);
+  EXPECT_TRUE(report.correction.IsIdentity());
+  options_.max_keyframes = 40;
+  report = SelfCalibrateMap(options_, *map_);
+  EXPECT_FALSE(report.usable);
+  EXPECT_TRUE(report.correction.IsIdentity());
+  EXPECT_EQ(map_->keyframe(KeyFrameId(7)).cam_from_world.translation, before.translation);
 }
 
 TEST_F(MapCalibrationTest, IsNotDoneWhenSwitchedOffOrWithFewKeyFrames) {

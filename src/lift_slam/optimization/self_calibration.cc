@@ -115,6 +115,12 @@ Eigen::Vector2d CalibrationCorrection::ToIdeal(const PinholeIntrinsics& intrinsi
   return {intrinsics.fx * ideal.x() + intrinsics.cx, intrinsics.fy * ideal.y() + intrinsics.cy};
 }
 
+bool IsClearlyOff(const CalibrationCorrection& correction, const SelfCalibrationOptions& options) {
+  const Eigen::Vector2d off((correction.focal_scale - 1.0) / options.focal_scale_error,
+                            correction.k1 / options.k1_error);
+  return off.squaredNorm() > kChiSquare99With2Dof;
+}
+
 void MakePixelsIdeal(const CalibrationCorrection& correction, BundleProblem& problem) {
   for (BundleObservation& observation : problem.observations) {
     observation.pixel = correction.ToIdeal(problem.intrinsics, observation.pixel);

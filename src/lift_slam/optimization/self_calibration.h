@@ -23,6 +23,11 @@ struct SelfCalibrationOptions {
   // KITTI's residual distortion (Cvisic et al., 2021) is of this size.
   double focal_scale_sigma = 0.01;
   double k1_sigma = 0.01;
+  // What estimates of an exact calibration are off by, as standard deviations (docs/scale.md):
+  // wrong matches and drift say so much. A calibration that is not clearly further off is left as
+  // it is.
+  double focal_scale_error = 0.005;
+  double k1_error = 0.002;
   int min_keyframes = 20;  // fewer say too little
   // Maps of more keyframes are calibrated on so many, in windows of consecutive ones spread over
   // the map: enough for two unknowns, and the time no longer grows with the map.
@@ -36,6 +41,9 @@ struct SelfCalibrationOptions {
     visitor.Field("focal_scale_sigma", focal_scale_sigma,
                   "prior standard deviation of the focal length, as a ratio");
     visitor.Field("k1_sigma", k1_sigma, "prior standard deviation of the radial distortion k1");
+    visitor.Field("focal_scale_error", focal_scale_error,
+                  "error of the estimate, as a ratio; what is not clearly more is not corrected");
+    visitor.Field("k1_error", k1_error, "the same of k1");
     visitor.Field("min_keyframes", min_keyframes, "keyframes a map needs for it");
     visitor.Field("max_keyframes", max_keyframes,
                   "keyframes it takes at most, spread over the map");
@@ -45,6 +53,9 @@ struct SelfCalibrationOptions {
                   "relative change of the cost that ends the solver");
   }
 };
+
+// Whether a correction is more than an estimate's error (chi-square, 2 dof, 99 %).
+bool IsClearlyOff(const CalibrationCorrection& correction, const SelfCalibrationOptions& options);
 
 // The observations' pixels become those that the ideal pinhole would have measured.
 void MakePixelsIdeal(const CalibrationCorrection& correction, BundleProblem& problem);

@@ -77,6 +77,15 @@ TEST(SelfCalibration, CorrectionInvertsItsOwnModel) {
   EXPECT_LT((correction.ToIdeal(intrinsics, measured) - ideal).norm(), 1e-9);
 }
 
+TEST(SelfCalibration, IsClearlyOffBeyondThreeErrors) {
+  const SelfCalibrationOptions options{.focal_scale_error = 0.005, .k1_error = 0.002};
+  EXPECT_FALSE(IsClearlyOff({}, options));
+  EXPECT_FALSE(IsClearlyOff({0.9934, -0.0039}, options));
+  EXPECT_TRUE(IsClearlyOff({0.9845, 0.0066}, options));
+  EXPECT_TRUE(IsClearlyOff({1.016, 0.0}, options));
+  EXPECT_TRUE(IsClearlyOff({1.0, -0.0062}, options));
+}
+
 TEST(SelfCalibration, NothingToSeeIsNotUsable) {
   BundleProblem problem;
   EXPECT_FALSE(SelfCalibrate(problem, {}).usable);
