@@ -295,10 +295,8 @@ TEST_F(BenchmarkCommand, MatchingIsCountedOverPairsAndGoesOn) {
 
 TEST_F(BenchmarkCommand, ResultsBecomeADocumentThatTheSameResultsGiveAgain) {
   Render(SequenceLayout::kKittiOdometry, 40);
-  ASSERT_EQ(RunProgram(Arguments("kitti", "default_orb") +
-                       " --runs 1 --set slam.loop_closing.enabled=false --frames 0:38:1")
-                .exit_code,
-            0);
+  const std::string options = " --runs 1 --set slam.loop_closing.enabled=false --frames 0:38:1";
+  ASSERT_EQ(RunProgram(Arguments("kitti", "default_orb") + options).exit_code, 0);
   const fs::path matching = folder_ / "matching", document = folder_ / "docs/results.md";
   ASSERT_EQ(RunProgram(fmt::format("benchmark matching --data {}/data --systems orb --pairs 2 "
                                    "--output {}",

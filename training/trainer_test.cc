@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/testing/temporary_folder.h"
+#include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/fine_tune_command.h"
 #include "training/photograph_import.h"
@@ -190,9 +189,8 @@ TEST(FineTune, AlsoLeavesWeightsWhenItEndsEarly) {
   EXPECT_EQ(tuned.distances, from.distances);
   EXPECT_EQ(tuned.descriptor_ranges, from.descriptor_ranges);
   // Good weights are shown the hardest wrong points from the first step on.
-  std::ifstream settings(folder / "tuned/orientation/settings.yaml");
-  const std::string text(std::istreambuf_iterator<char>(settings), {});
-  EXPECT_THAT(text, testing::HasSubstr("easy_steps: 0\n"));
+  EXPECT_THAT(ReadText(folder / "tuned/orientation/settings.yaml"),
+              testing::HasSubstr("easy_steps: 0\n"));
 }
 
 TEST(Trainer, RefusesWhatCannotBe) {

@@ -70,9 +70,11 @@ void Straighten(const PixelLine& stretch, PixelLine& out) {
   }
   constexpr bool kClosed = false;
   cv::approxPolyDP(points, corners, kMaxDeviationPx, kClosed);
-  for (const cv::Point2f& corner : corners) {
-    out.x.push_back(corner.x);
-    out.y.push_back(corner.y);
+  // Corners are some of the points, in order: those are taken, unrounded.
+  for (std::size_t i = 0, next = 0; i < points.size() && next < corners.size(); ++i) {
+    if (points[i] != corners[next]) continue;
+    Append(stretch, i, out);
+    ++next;
   }
 }
 
