@@ -70,6 +70,18 @@ EvaluationOptions EvaluationFor(const SequenceInfo& info, EvaluationOptions opti
   return options;
 }
 
+std::string ToText(const SelfCalibrationReport& calibration) {
+  const auto found = [&] {
+    return fmt::format("focal length x {:.4f}, k1 {:+.4f}", calibration.estimate.focal_scale,
+                       calibration.estimate.k1);
+  };
+  if (calibration.usable()) return found();
+  if (calibration.refusal == CalibrationRefusal::kNotClearlyOff) {
+    return fmt::format("left as given. {} ({})", Explain(calibration.refusal), found());
+  }
+  return fmt::format("left as given. {}", Explain(calibration.refusal));
+}
+
 FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
                      const RunRecord& record, ProgramOptions& options) {
   const Trajectory truth = info.ground_truth ? info.ground_truth->poses : Trajectory();
@@ -92,12 +104,9 @@ FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
   if (!arguments.files.maps.load.empty()) {
     finished.settings.emplace_back("loaded map", arguments.files.maps.load.string());
   }
-  for (std::size_t i = 0; i < record.corrections.size(); ++i) {
-    const CalibrationCorrection& correction = record.corrections[i];
-    if (correction.IsIdentity()) continue;
-    finished.settings.emplace_back(
-        fmt::format("self-calibration of map {}", i + 1),
-        fmt::format("focal length x {:.4f}, k1 {:+.4f}", correction.focal_scale, correction.k1));
+  for (std::size_t i = 0; i < record.calibrations.size(); ++i) {
+    finished.settings.emplace_back(fmt::format("self-calibration of map {}", i + 1),
+                                   ToText(record.calibrations[i]));
   }
   finished.warnings = info.warnings;
   return finished;

@@ -33,11 +33,13 @@ Json RefusalsJson(const RunRecord& run) {
   return json;
 }
 
-// By map: what self-calibration found the given calibration to be off by.
-Json CorrectionsJson(const RunRecord& run) {
+// By map: what self-calibration found the given calibration to be off by, and whether it was taken.
+Json CalibrationsJson(const RunRecord& run) {
   Json json = Json::array();
-  for (const CalibrationCorrection& correction : run.corrections) {
-    json.push_back({{"focal_scale", correction.focal_scale}, {"k1", correction.k1}});
+  for (const SelfCalibrationReport& calibration : run.calibrations) {
+    json.push_back({{"result", Name(calibration.refusal)},
+                    {"focal_scale", calibration.estimate.focal_scale},
+                    {"k1", calibration.estimate.k1}});
   }
   return json;
 }
@@ -117,7 +119,7 @@ std::string RunResultJson(const FinishedRun& finished) {
   json["refusals"] = RefusalsJson(run);
   json["counters"] = run.counters;
   json["places"] = PlacesJson(run);
-  json["calibration_corrections"] = CorrectionsJson(run);
+  json["self_calibrations"] = CalibrationsJson(run);
   json["timing"] = TimingJson(run);
   json["memory"] = {{"peak_bytes", finished.provenance.peak_memory_bytes}};
   json["interrupted"] = run.interrupted;

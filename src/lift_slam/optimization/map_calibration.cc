@@ -37,14 +37,16 @@ SelfCalibrationReport EstimateFrom(const Window& window, const SelfCalibrationOp
 
 // A calibration that is not clearly off stays as it is.
 void RefuseSmallCorrection(const SelfCalibrationOptions& options, SelfCalibrationReport& report) {
-  if (report.usable && !IsClearlyOff(report.correction, options)) {
-    report.usable = false;
-    report.correction = CalibrationCorrection();
+  if (report.usable() && !IsClearlyOff(report.estimate, options)) {
+    report.refusal = CalibrationRefusal::kNotClearlyOff;
   }
 }
 
-bool IsPossible(const SelfCalibrationOptions& options, const Map& map) {
-  return options.enabled && map.num_keyframes() >= options.min_keyframes;
+// kNone: nothing speaks against it before it is tried.
+CalibrationRefusal RefusalOf(const SelfCalibrationOptions& options, const Map& map) {
+  if (!options.enabled) return CalibrationRefusal::kSwitchedOff;
+  if (map.num_keyframes() < options.min_keyframes) return CalibrationRefusal::kFewKeyFrames;
+  return CalibrationRefusal::kNone;
 }
 
 }  // namespace
@@ -54,27 +56,26 @@ bool IsCalibratedAsAWhole(const SelfCalibrationOptions& options, const Map& map)
 }
 
 SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Map& map) {
-  SelfCalibrationReport report;
-  if (!IsPossible(options, map)) return report;
+  SelfCalibrationReport report{.refusal = RefusalOf(options, map)};
+  if (!report.usable()) return report;
   BundleIndex index;
   BundleProblem problem = MakeBundleProblem(map.KeyFrameIds(), {}, map, index);
   report = SelfCalibrate(problem, options);
   RefuseSmallCorrection(options, report);
-  if (report.usable) WritePosesAndPoints(index, problem, map);
+  if (report.usable()) WritePosesAndPoints(index, problem, map);
   return report;
 }
 
 SelfCalibrationReport EstimateCalibration(const SelfCalibrationOptions& options, const Map& map) {
-  if (!IsPossible(options, map)) return {};
-  SelfCalibrationReport report;
+  SelfCalibrationReport report{.refusal = RefusalOf(options, map)};
+  if (!report.usable()) return report;
   std::vector<CalibrationCorrection> parts;
   for (const Window& window : SpreadWindows(options, map)) {
     const SelfCalibrationReport part = EstimateFrom(window, options, map);
-    if (part.usable) parts.push_back(part.correction);
+    if (part.usable()) parts.push_back(part.estimate);
   }
-  if (parts.size() < 2) return report;
-  report.usable = true;
-  report.correction = Consensus(parts, options);
+  if (parts.size() < 2) return {.refusal = CalibrationRefusal::kNoEstimate};
+  report.estimate = Consensus(parts, options);
   RefuseSmallCorrection(options, report);
   return report;
 }

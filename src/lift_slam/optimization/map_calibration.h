@@ -10,15 +10,13 @@ namespace lift_slam {
 bool IsCalibratedAsAWhole(const SelfCalibrationOptions& options, const Map& map);
 
 // All keyframes and points together with a correction of the calibration. The features' pixels in
-// the map stay as measured: whoever projects afterwards applies the correction. Not usable with
-// fewer than min_keyframes, when it is switched off, or when the calibration is not clearly off
-// (IsClearlyOff); the map stays as it is then.
+// the map stay as measured: whoever projects afterwards applies the correction. Where it is refused
+// the map stays as it is.
 SelfCalibrationReport SelfCalibrateMap(const SelfCalibrationOptions& options, Map& map);
 
 // The correction that windows of consecutive keyframes agree on (Consensus), each adjusted by
-// itself with its first pose held fixed. Not usable where fewer than two have a result, or when the
-// calibration is not clearly off (IsClearlyOff); costs and iterations stay zero. The map stays as
-// it is.
+// itself with its first pose held fixed; kNoEstimate where fewer than two have a result. Costs and
+// iterations stay zero. The map stays as it is.
 SelfCalibrationReport EstimateCalibration(const SelfCalibrationOptions& options, const Map& map);
 
 }  // namespace lift_slam

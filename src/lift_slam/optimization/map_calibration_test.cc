@@ -42,23 +42,23 @@ TEST_F(MapCalibrationTest, WindowsOfALongMapFindTheFocalLength) {
   ASSERT_FALSE(IsCalibratedAsAWhole(options_, *map_));
   const Rigid3d before = map_->keyframe(KeyFrameId(7)).cam_from_world;
   const SelfCalibrationReport report = EstimateCalibration(options_, *map_);
-  ASSERT_TRUE(report.usable);
-  EXPECT_NEAR(report.correction.focal_scale, kFocalScale, 2e-3);
+  ASSERT_TRUE(report.usable());
+  EXPECT_NEAR(report.correction().focal_scale, kFocalScale, 2e-3);
   EXPECT_EQ(map_->keyframe(KeyFrameId(7)).cam_from_world.translation, before.translation);
 }
 
 TEST_F(MapCalibrationTest, TwoWindowsAreTakenHoweverLongTheyAreAskedFor) {
   options_.window_keyframes = 15;
   const SelfCalibrationReport report = EstimateCalibration(options_, *map_);
-  ASSERT_TRUE(report.usable);
-  EXPECT_NEAR(report.correction.focal_scale, kFocalScale, 2e-3);
+  ASSERT_TRUE(report.usable());
+  EXPECT_NEAR(report.correction().focal_scale, kFocalScale, 2e-3);
 }
 
 TEST_F(MapCalibrationTest, BundleWithTheCorrectionAgreesWithThePixels) {
   const SelfCalibrationReport estimate = EstimateCalibration(options_, *map_);
-  ASSERT_TRUE(estimate.usable);
+  ASSERT_TRUE(estimate.usable());
   const MapBundleReport without = AdjustWholeMap({}, {}, *map_);
-  const MapBundleReport with = AdjustWholeMap({}, estimate.correction, *map_);
+  const MapBundleReport with = AdjustWholeMap({}, estimate.correction(), *map_);
   ASSERT_TRUE(with.solver.usable);
   EXPECT_LT(with.solver.final_cost, 0.2 * without.solver.final_cost);
   EXPECT_EQ(with.free_keyframes, 40);
@@ -68,30 +68,33 @@ TEST_F(MapCalibrationTest, ShortMapIsCalibratedAsAWhole) {
   options_.max_keyframes = 40;
   ASSERT_TRUE(IsCalibratedAsAWhole(options_, *map_));
   const SelfCalibrationReport report = SelfCalibrateMap(options_, *map_);
-  ASSERT_TRUE(report.usable);
-  EXPECT_NEAR(report.correction.focal_scale, kFocalScale, 2e-3);
+  ASSERT_TRUE(report.usable());
+  EXPECT_NEAR(report.correction().focal_scale, kFocalScale, 2e-3);
 }
 
 TEST_F(MapCalibrationTest, WhatIsNotClearlyOffStaysAsItIs) {
   const Rigid3d before = map_->keyframe(KeyFrameId(7)).cam_from_world;
   options_.focal_scale_error = 1.0 - kFocalScale;
   SelfCalibrationReport report = EstimateCalibration(options_, *map_);
-  EXPECT_FALSE(report.usable);
-  EXPECT_TRUE(report.correction.IsIdentity());
+  EXPECT_EQ(report.refusal, CalibrationRefusal::kNotClearlyOff);
+  EXPECT_NEAR(report.estimate.focal_scale, kFocalScale, 2e-3);  // said all the same
+  EXPECT_TRUE(report.correction().IsIdentity());
   options_.max_keyframes = 40;
   report = SelfCalibrateMap(options_, *map_);
-  EXPECT_FALSE(report.usable);
-  EXPECT_TRUE(report.correction.IsIdentity());
+  EXPECT_EQ(report.refusal, CalibrationRefusal::kNotClearlyOff);
+  EXPECT_NEAR(report.estimate.focal_scale, kFocalScale, 2e-3);
+  EXPECT_TRUE(report.correction().IsIdentity());
   EXPECT_EQ(map_->keyframe(KeyFrameId(7)).cam_from_world.translation, before.translation);
 }
 
 TEST_F(MapCalibrationTest, IsNotDoneWhenSwitchedOffOrWithFewKeyFrames) {
   options_.min_keyframes = 41;
-  EXPECT_FALSE(EstimateCalibration(options_, *map_).usable);
-  EXPECT_FALSE(SelfCalibrateMap(options_, *map_).usable);
+  EXPECT_EQ(EstimateCalibration(options_, *map_).refusal, CalibrationRefusal::kFewKeyFrames);
+  EXPECT_EQ(SelfCalibrateMap(options_, *map_).refusal, CalibrationRefusal::kFewKeyFrames);
   options_.min_keyframes = 20;
   options_.enabled = false;
-  EXPECT_FALSE(EstimateCalibration(options_, *map_).usable);
+  EXPECT_EQ(EstimateCalibration(options_, *map_).refusal, CalibrationRefusal::kSwitchedOff);
+  EXPECT_EQ(SelfCalibrateMap(options_, *map_).refusal, CalibrationRefusal::kSwitchedOff);
 }
 
 }  // namespace

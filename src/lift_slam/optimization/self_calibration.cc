@@ -7,6 +7,7 @@
 
 #include "lift_slam/geometry/chi_square.h"
 #include "lift_slam/optimization/min_depth.h"
+#include "lift_slam/util/check.h"
 
 namespace lift_slam {
 namespace {
@@ -104,7 +105,31 @@ void DescribeBlocks(const BundleProblem& problem, Parameters& parameters, ceres:
   ordering.AddElementToGroup(parameters.correction.data(), 1);
 }
 
+struct RefusalText {
+  std::string_view name, explanation;
+};
+
+constexpr std::array<RefusalText, static_cast<std::size_t>(CalibrationRefusal::kCount)> kRefusals =
+    {{
+        {"none", "The given calibration was corrected."},
+        {"not_reached", "The run did not come to it, or has not changed the map."},
+        {"switched_off", "Self-calibration is switched off."},
+        {"few_keyframes", "The map has too few keyframes to tell."},
+        {"no_estimate", "No estimate was found that the map agrees with."},
+        {"not_clearly_off", "What was found is within the error of such an estimate."},
+    }};
+
+const RefusalText& TextOf(CalibrationRefusal refusal) {
+  const auto i = static_cast<std::size_t>(refusal);
+  LIFT_SLAM_CHECK(i < kRefusals.size(), "refusal {}", i);
+  return kRefusals[i];
+}
+
 }  // namespace
+
+std::string_view Name(CalibrationRefusal refusal) { return TextOf(refusal).name; }
+
+std::string_view Explain(CalibrationRefusal refusal) { return TextOf(refusal).explanation; }
 
 Eigen::Vector2d CalibrationCorrection::ToIdeal(const PinholeIntrinsics& intrinsics,
                                                const Eigen::Vector2d& pixel) const {
@@ -128,7 +153,7 @@ void MakePixelsIdeal(const CalibrationCorrection& correction, BundleProblem& pro
 }
 
 SelfCalibrationReport SelfCalibrate(BundleProblem& problem, const SelfCalibrationOptions& options) {
-  SelfCalibrationReport report;
+  SelfCalibrationReport report{.refusal = CalibrationRefusal::kNoEstimate};
   if (problem.observations.empty()) return report;
   Parameters parameters(problem);
   ceres::Problem solver;
@@ -146,13 +171,13 @@ SelfCalibrationReport SelfCalibrate(BundleProblem& problem, const SelfCalibratio
   report.initial_cost = summary.initial_cost;
   report.final_cost = summary.final_cost;
   report.iterations = static_cast<int>(summary.iterations.size());
-  report.usable = summary.IsSolutionUsable() && parameters.correction[0] > 0.5;
-  if (!report.usable) return report;
+  if (!summary.IsSolutionUsable() || parameters.correction[0] <= 0.5) return report;
 
-  report.correction = {parameters.correction[0], parameters.correction[1]};
+  report.refusal = CalibrationRefusal::kNone;
+  report.estimate = {parameters.correction[0], parameters.correction[1]};
   problem.cams_from_world = std::move(parameters.cams_from_world);
   problem.points = std::move(parameters.points);
-  MakePixelsIdeal(report.correction, problem);
+  MakePixelsIdeal(report.estimate, problem);
   return report;
 }
 

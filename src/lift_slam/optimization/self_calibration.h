@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "lift_slam/camera/pinhole.h"
 #include "lift_slam/optimization/bundle_adjustment.h"
 #include "lift_slam/util/options.h"
@@ -60,16 +62,36 @@ bool IsClearlyOff(const CalibrationCorrection& correction, const SelfCalibration
 // The observations' pixels become those that the ideal pinhole would have measured.
 void MakePixelsIdeal(const CalibrationCorrection& correction, BundleProblem& problem);
 
+// Why a calibration was left as given, or (kNone) that it was corrected.
+enum class CalibrationRefusal {
+  kNone,
+  kNotReached,  // the run ended before, or the map is an earlier run's
+  kSwitchedOff,
+  kFewKeyFrames,  // fewer than min_keyframes
+  kNoEstimate,    // the solver, or all but one of the windows, gave none
+  kNotClearlyOff,
+  kCount
+};
+
+// Lower-case words with underscores, as in result.json: "not_clearly_off".
+std::string_view Name(CalibrationRefusal refusal);
+// One sentence for people.
+std::string_view Explain(CalibrationRefusal refusal);
+
 struct SelfCalibrationReport {
-  bool usable = false;
-  CalibrationCorrection correction;
+  CalibrationRefusal refusal = CalibrationRefusal::kNotReached;
+  CalibrationCorrection estimate = {};  // what was found, taken or (kNotClearlyOff) not
   double initial_cost = 0.0, final_cost = 0.0;
   int iterations = 0;
+
+  bool usable() const { return refusal == CalibrationRefusal::kNone; }
+  // What pixels are to be corrected by: the identity where the calibration was left as given.
+  CalibrationCorrection correction() const { return usable() ? estimate : CalibrationCorrection(); }
 };
 
 // Bundle adjustment of poses, points and the calibration's correction together, with a Huber loss
 // and a prior on the correction. Poses and points of `problem` are moved, its pixels become those
-// of the ideal pinhole. When not usable, `problem` is unchanged and the correction is none.
+// of the ideal pinhole. When refused (kNoEstimate), `problem` is unchanged.
 SelfCalibrationReport SelfCalibrate(BundleProblem& problem, const SelfCalibrationOptions& options);
 
 }  // namespace lift_slam

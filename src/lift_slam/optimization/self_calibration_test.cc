@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "lift_slam/optimization/test_scene.h"
 
 namespace lift_slam {
@@ -39,9 +41,9 @@ TEST(SelfCalibration, FindsWhatTheCalibrationIsOffBy) {
   const CalibrationCorrection truth{0.99, 0.012};
   BundleProblem problem = MakeProblem(truth, 0.3, random);
   const SelfCalibrationReport report = SelfCalibrate(problem, {});
-  ASSERT_TRUE(report.usable);
-  EXPECT_NEAR(report.correction.focal_scale, truth.focal_scale, 2e-3);
-  EXPECT_NEAR(report.correction.k1, truth.k1, 2e-3);
+  ASSERT_TRUE(report.usable());
+  EXPECT_NEAR(report.correction().focal_scale, truth.focal_scale, 2e-3);
+  EXPECT_NEAR(report.correction().k1, truth.k1, 2e-3);
   EXPECT_LT(report.final_cost, 0.5 * report.initial_cost);
 }
 
@@ -49,15 +51,15 @@ TEST(SelfCalibration, LeavesARightCalibrationAlone) {
   Random random(4);
   BundleProblem problem = MakeProblem({}, 0.3, random);
   const SelfCalibrationReport report = SelfCalibrate(problem, {});
-  ASSERT_TRUE(report.usable);
-  EXPECT_NEAR(report.correction.focal_scale, 1.0, 2e-3);
-  EXPECT_NEAR(report.correction.k1, 0.0, 2e-3);
+  ASSERT_TRUE(report.usable());
+  EXPECT_NEAR(report.correction().focal_scale, 1.0, 2e-3);
+  EXPECT_NEAR(report.correction().k1, 0.0, 2e-3);
 }
 
 TEST(SelfCalibration, PixelsBecomeThoseOfTheIdealPinhole) {
   Random random(5);
   BundleProblem problem = MakeProblem({1.01, -0.01}, 0.0, random);
-  ASSERT_TRUE(SelfCalibrate(problem, {}).usable);
+  ASSERT_TRUE(SelfCalibrate(problem, {}).usable());
   for (const BundleObservation& observation : problem.observations) {
     const Eigen::Vector3d in_cam =
         problem.cams_from_world[static_cast<std::size_t>(observation.camera)] *
@@ -88,7 +90,16 @@ TEST(SelfCalibration, IsClearlyOffBeyondThreeErrors) {
 
 TEST(SelfCalibration, NothingToSeeIsNotUsable) {
   BundleProblem problem;
-  EXPECT_FALSE(SelfCalibrate(problem, {}).usable);
+  EXPECT_FALSE(SelfCalibrate(problem, {}).usable());
+}
+
+TEST(SelfCalibration, EveryRefusalHasANameAndAnExplanation) {
+  std::set<std::string_view> names;
+  for (int i = 0; i < static_cast<int>(CalibrationRefusal::kCount); ++i) {
+    names.insert(Name(static_cast<CalibrationRefusal>(i)));
+    EXPECT_FALSE(Explain(static_cast<CalibrationRefusal>(i)).empty());
+  }
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(CalibrationRefusal::kCount));
 }
 
 }  // namespace

@@ -211,15 +211,14 @@ void MapSession::AdjustFinally(const BundleOptions& bundle,
   const bool is_short = IsCalibratedAsAWhole(calibration, *map_);
   const auto adjust = [&] {
     const Timer timer;
-    AdjustWholeMap(bundle, correction_, *map_);
+    AdjustWholeMap(bundle, correction(), *map_);
     times_ms["final_bundle"].push_back(timer.ElapsedMs());
   };
   if (is_short) adjust();
   const Timer timer;
-  const SelfCalibrationReport report =
+  calibration_ =
       is_short ? SelfCalibrateMap(calibration, *map_) : EstimateCalibration(calibration, *map_);
   times_ms["self_calibration"].push_back(timer.ElapsedMs());
-  if (report.usable) correction_ = report.correction;
   if (!is_short) adjust();
   const std::vector<double> scales = before.ChangesIn(*map_);
   map_->ScaleReferences(scales);
@@ -227,10 +226,10 @@ void MapSession::AdjustFinally(const BundleOptions& bundle,
 }
 
 void MapSession::PrepareToStore(const BundleOptions& bundle) {
-  if (correction_.IsIdentity()) return;
+  if (correction().IsIdentity()) return;
   AdjustWholeMap(bundle, CalibrationCorrection(), *map_);
   for (const MapPointId id : map_->PointIds()) map_->UpdateViewingRange(id);
-  correction_ = CalibrationCorrection();
+  calibration_ = SelfCalibrationReport();
 }
 
 MapToStore MapSession::ToStore() const {

@@ -78,7 +78,9 @@ class MapSession {
   bool is_loaded() const { return is_loaded_; }
   // The run has added to the map or moved it.
   bool is_of_this_run() const { return !is_loaded_ || has_new_keyframes_; }
-  const CalibrationCorrection& correction() const { return correction_; }
+  // What self-calibration found, or why it did not.
+  const SelfCalibrationReport& calibration() const { return calibration_; }
+  CalibrationCorrection correction() const { return calibration_.correction(); }
   int num_backfilled() const { return num_backfilled_; }
   // Grey value of the pixel a point was made from.
   std::uint8_t GrayOf(MapPointId id) const {
@@ -108,7 +110,7 @@ class MapSession {
   bool is_loaded_ = false;
   bool has_new_keyframes_ = false;  // of this run
   bool localization_only_ = false;
-  CalibrationCorrection correction_;
+  SelfCalibrationReport calibration_;
 };
 
 }  // namespace lift_slam

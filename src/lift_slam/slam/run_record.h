@@ -103,8 +103,8 @@ struct RunRecord {
   std::vector<PointRecord> points;        // of all maps kept
   std::vector<AnnotatedFrame> annotated_frames;
   std::vector<PlaceEvent> place_events;  // in order of time
-  // What self-calibration found the calibration to be off by, by map; identity: nothing done.
-  std::vector<CalibrationCorrection> corrections;
+  // By map: what self-calibration found the calibration to be off by, or why it was left as given.
+  std::vector<SelfCalibrationReport> calibrations;
   StageTimes stage_times_ms;
   int num_maps = 0;     // maps kept
   int lost_events = 0;  // tracking -> lost

@@ -109,7 +109,7 @@ void CompleteRunRecord(const std::vector<std::unique_ptr<MapSession>>& sessions,
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const Map& map = sessions[i]->map();
     const int map_index = static_cast<int>(i);
-    record.corrections.push_back(sessions[i]->correction());
+    record.calibrations.push_back(sessions[i]->calibration());
     std::vector<int> keyframe_rows;  // by keyframe id
     AddKeyFrames(map, map_index, keyframe_rows, record);
     for (const MapPointId id : map.PointIds()) {
