@@ -149,6 +149,11 @@ TEST_F(BenchmarkCommand, ASuiteTakesOtherSequencesThatAreNamed) {
   EXPECT_THAT(outcome.output, HasSubstr("plan        11 runs"));
   ExpectOneSentence(RunProgram(plan + "garage"),
                     {"'garage' is neither in the suite 'robustness' nor below"});
+  // Nobody published numbers of this one; what was not run has no coverage either.
+  const Outcome tables = RunProgram("benchmark merge --output " + output_.string());
+  EXPECT_EQ(tables.exit_code, 0) << tables.output;
+  EXPECT_THAT(tables.output, Not(HasSubstr("LIFT-SLAM paper, Table 4")));
+  EXPECT_THAT(tables.output, HasSubstr("ours, ORB features | 0/1 | ? | ? |"));
 }
 
 TEST_F(BenchmarkCommand, TrajectoriesOfOthersJoin) {

@@ -14,6 +14,7 @@
 namespace lift_slam {
 namespace {
 
+// Those that have a number of one of the columns at least.
 std::vector<BenchmarkTableRow> OtherRows(const std::filesystem::path& path,
                                          const std::string& suite, const char* figure,
                                          const std::vector<std::string>& columns) {
@@ -28,7 +29,9 @@ std::vector<BenchmarkTableRow> OtherRows(const std::filesystem::path& path,
         const YAML::Node value = system[figure][column];
         row.entries.push_back({value ? value.as<std::string>() : "-", {}});
       }
-      rows.push_back(row);
+      const bool has_number = std::ranges::any_of(
+          row.entries, [](const TableEntry& entry) { return entry.text != "-"; });
+      if (has_number) rows.push_back(row);
     }
   } catch (const YAML::Exception& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
@@ -133,11 +136,13 @@ ResultTable StatisticsTable(const BenchmarkPlan& plan, const BenchmarkCells& cel
       "Sequence, system", {"runs", "coverage [%]", "ATE mean [m]", "median", "min", "max"}, {}, {}};
   ForEachCell(plan, cells, [&](const auto& title, const auto& column, const BenchmarkCell& cell) {
     const RunStatistics s = cell.Statistics(0);
+    const std::string none = s.num_runs == 0 ? "?" : "n/a";
     BenchmarkTableRow row{column + ", " + title, {}};
     row.entries.push_back({fmt::format("{}/{}", cell.NumGood(), cell.planned), {}});
-    row.entries.push_back({fmt::format("{:.1f}", 100.0 * cell.MeanCoverage()), {}});
+    row.entries.push_back(
+        {s.num_runs == 0 ? none : fmt::format("{:.1f}", 100.0 * cell.MeanCoverage()), {}});
     for (const double value : {s.mean, s.median, s.min, s.max}) {
-      row.entries.push_back({s.num_used == 0 ? "n/a" : fmt::format("{:.4f}", value), {}});
+      row.entries.push_back({s.num_used == 0 ? none : fmt::format("{:.4f}", value), {}});
     }
     table.ours.push_back(row);
   });
