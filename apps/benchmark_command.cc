@@ -181,7 +181,7 @@ void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
                   "Folder that keeps features: further runs find them there (no times then)")
       ->type_name("FOLDER");
   command.add_option("--frames", request.frames, "Part of every sequence: FIRST:LAST:STEP");
-  command.add_option("--set", request.overrides, "KEY=VALUE for every system")
+  command.add_option("--set", request.overrides, "KEY=VALUE for every system; may be repeated")
       ->allow_extra_args(false);
   command
       .add_option("--external", arguments.external,
