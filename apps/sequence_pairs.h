@@ -10,7 +10,7 @@
 namespace lift_slam {
 
 inline constexpr int kMaxPairSkip = 10;
-// The paper's frame skip (sec. III-A); the second images of the gamma conditions are as far away.
+// The paper's frame skip (sec. 3.1); the second images of the gamma conditions are as far away.
 inline constexpr int kGammaSkip = 5;
 inline constexpr double kPairGammas[] = {0.25, 0.5, 2.0, 4.0};
 

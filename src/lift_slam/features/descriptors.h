@@ -25,7 +25,7 @@ struct DescriptorKind {
 using DescriptorView = std::span<const std::byte>;
 
 // Distance between two descriptors of this kind: bits that differ, or the L2 norm of the
-// difference (LIFT, paper sec. III-A; not normalised).
+// difference (LIFT, paper sec. 3.1; not normalised).
 float DescriptorDistance(const DescriptorKind& kind, DescriptorView a, DescriptorView b);
 
 // Rows of descriptors of one kind, packed.

@@ -27,11 +27,11 @@ struct ScaleLevels {
 
 // Distances below which two descriptors are taken for the same point; in the kind's own metric.
 struct MatchingThresholds {
-  float low = 0.0F;   // TH_LOW: strict, wide search (paper sec. III-B)
+  float low = 0.0F;   // TH_LOW: strict, wide search (paper sec. 3.4)
   float high = 0.0F;  // TH_HIGH: loose, guided search
 };
 
-// What the thresholds are, and how far they may be moved while tracking (paper sec. III-C).
+// What the thresholds are, and how far they may be moved while tracking (paper sec. 3.4).
 struct ThresholdRange {
   MatchingThresholds fixed;   // where they stay when nothing adapts them
   MatchingThresholds strict;  // the least: matches are plentiful

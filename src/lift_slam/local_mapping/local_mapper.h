@@ -18,7 +18,7 @@ struct MappingReport {
   double create_ms = 0.0, fuse_ms = 0.0, bundle_ms = 0.0, cull_ms = 0.0;
 };
 
-// Keyframe to map (paper sec. III-B "Mapping"; ORB-SLAM sec. VI): cull recent points, create new
+// Keyframe to map (paper sec. 3.2 "Mapping"; ORB-SLAM sec. VI): cull recent points, create new
 // ones, fuse duplicates, local bundle adjustment, cull redundant keyframes.
 class LocalMapper {
  public:

@@ -34,7 +34,7 @@ struct LoopReport {
   bool closed() const { return correction.has_value(); }
 };
 
-// Loop closing in one map (paper sec. III-B "Relocalization and loop closure"): keeps the map's
+// Loop closing in one map (paper sec. 3.2 "Relocalization and loop closure"): keeps the map's
 // place index and spanning tree; detects, verifies and corrects in the calling thread.
 class LoopCloser {
  public:

@@ -8,7 +8,7 @@
 namespace lift_slam {
 
 // Undirected graph of keyframes; the weight of an edge is the number of map points both see
-// (ORB-SLAM sec. III-D; paper sec. III-B "Mapping"). Kept exact as observations come and go.
+// (ORB-SLAM sec. III-D; paper sec. 3.2 "Mapping"). Kept exact as observations come and go.
 class CovisibilityGraph {
  public:
   struct Neighbor {

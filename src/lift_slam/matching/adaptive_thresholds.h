@@ -25,7 +25,7 @@ struct MatchingOptions {
   void Check() const;
 };
 
-// Adaptive thresholds (paper sec. III-C): they follow the difference between the map points of the
+// Adaptive thresholds (paper sec. 3.4): they follow the difference between the map points of the
 // last frame that were matched and the outliers among them. The paper shows the curve (Fig. 5) and
 // gives no formula; this one needs no number of the data set, as its bounds come from the features.
 struct AdaptiveThresholds {

@@ -11,7 +11,7 @@
 namespace lift_slam {
 
 // Which of the keyframes that look alike may be the same place (ORB-SLAM sec. VII-A; paper sec.
-// III-B "Relocalization and loop closure"). Pure functions on ids and scores; the covisibility
+// 3.2 "Relocalization and loop closure"). Pure functions on ids and scores; the covisibility
 // graph is asked for through a function.
 
 // Keyframes covisible with the given one, best first; without itself. Must not change between calls

@@ -20,7 +20,7 @@ struct PipelineCallbacks {
 
 // Runs the input to its end. Sequential: everything in the calling thread. Threaded: reading and
 // feature extraction of the next frames overlap with tracking and mapping of the present one; since
-// mapping follows tracking in one thread (paper sec. III-B), the result is the same to the bit.
+// mapping follows tracking in one thread (paper sec. 3.2), the result is the same to the bit.
 // An exception of the reading thread is thrown here after the thread has ended.
 void RunPipeline(RunMode mode, const PipelineCallbacks& callbacks, FramePreparer& preparer,
                  SlamSystem& system);

@@ -31,7 +31,7 @@ struct FrameRecord {
   int num_features = 0;
   int num_matches = 0;  // map points matched before the final pose optimisation
   int num_inliers = 0;  // map points that agree with the pose
-  // Adaptive thresholds (paper sec. III-C, Fig. 5): the distances that descriptors were held to,
+  // Adaptive thresholds (paper sec. 3.4, Fig. 5): the distances that descriptors were held to,
   // the matches with the last frame's map points, and the outliers of these.
   float low_threshold = 0.0F, high_threshold = 0.0F;  // 0: no tracking
   int num_last_matches = 0, num_last_outliers = 0;

@@ -6,7 +6,7 @@
 
 namespace lift_slam {
 
-// The part of the map around a frame (ORB-SLAM sec. V-D; paper sec. III-B "Tracking").
+// The part of the map around a frame (ORB-SLAM sec. V-D; paper sec. 3.2 "Tracking").
 struct LocalMap {
   std::vector<KeyFrameId> keyframes;  // most shared points first, then their neighbours
   std::vector<MapPointId> points;     // seen by them, ascending by id

@@ -43,7 +43,7 @@ struct InitialMap {
   TwoViewReconstruction two_view;
 };
 
-// Two views to a first map (paper sec. III-B; ORB-SLAM sec. IV). Keeps a reference frame and tries
+// Two views to a first map (paper sec. 3.2; ORB-SLAM sec. IV). Keeps a reference frame and tries
 // each new frame against it. The reference is kept while frames match it, whatever else they are
 // refused for; after `max_poor_frames` it moves to the middle of the frames since.
 class MapInitializer {

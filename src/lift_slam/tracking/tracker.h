@@ -25,7 +25,7 @@ struct TrackingResult {
   int num_last_outliers = 0;      // of these, that disagree with the pose
 };
 
-// Image to pose within one map (paper sec. III-B "Tracking"): predict by constant velocity, match
+// Image to pose within one map (paper sec. 3.2 "Tracking"): predict by constant velocity, match
 // the last frame's points, optimise the pose; then match the local map and optimise again. When
 // the prediction fails: the recent keyframes by descriptors alone.
 class Tracker {
