@@ -189,6 +189,7 @@ TEST_F(EvaluateCommand, ReportMergesItsResults) {
   EXPECT_THAT(table, HasSubstr("| kitti | made |  | final | cam | sim3 | 2/2 | 100.0 |"));
   EXPECT_EQ(ReadText(Path("tables/report.md")), table);
   EXPECT_THAT(ReadText(Path("tables/report.csv")), HasSubstr("kitti,made"));
+  EXPECT_EQ(Run({"report", Path("runs"), Path("runs/../runs")}), table) << "each run counts once";
 }
 
 }  // namespace

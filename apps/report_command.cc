@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "lift_slam/evaluation/run_report.h"
 #include "lift_slam/util/file.h"
@@ -17,10 +18,14 @@ struct Arguments {
 };
 
 void WriteTables(const Arguments& arguments) {
-  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> files;  // each once, though folders given may overlap
+  std::set<std::filesystem::path> known;
   for (const std::string& input : arguments.inputs) {
     const auto found = FindResultFiles(input);
-    files.insert(files.end(), found.begin(), found.end());
+    for (const std::filesystem::path& file : found) {
+      const bool is_new = known.insert(std::filesystem::weakly_canonical(file)).second;
+      if (is_new) files.push_back(file);
+    }
   }
   const RunReport report = BuildReport(files);
   if (!arguments.output.empty()) {

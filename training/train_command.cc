@@ -91,9 +91,12 @@ bool RunTraining(const TrainingOptions& options, const std::filesystem::path& ou
     whole = !stop.Requested() && (minutes <= 0.0 || spent.count() < 60.0 * minutes);
     return whole;
   });
-  std::cout << fmt::format("{}: {} steps done, {} skipped, best validation figure {:.5f}\n",
-                           output.string(), trainer.state().step, trainer.state().skipped,
-                           trainer.state().best);
+  std::cout << fmt::format(
+      "{}: {} steps done, {} skipped, {}\n", output.string(), trainer.state().step,
+      trainer.state().skipped,
+      options.validation.empty()
+          ? "no validation sets: the last weights are kept"
+          : fmt::format("best validation figure {:.5f}", trainer.state().best));
   return whole;
 }
 

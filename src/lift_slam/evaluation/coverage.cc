@@ -16,7 +16,8 @@ namespace lift_slam {
 namespace {
 
 constexpr std::int64_t kSameFrameToleranceNs = 500'000;
-constexpr double kRoundingShare = 0.01;  // of a frame interval
+constexpr double kRoundingShare = 0.01;                 // of a frame interval
+constexpr std::int64_t kMaxMissingFrames = 10'000'000;  // 90 hours at 30 Hz
 
 bool StampBefore(const TrajectoryPose& pose, std::int64_t stamp) {
   return pose.timestamp_ns < stamp;
@@ -72,6 +73,13 @@ double MedianIntervalNs(const std::vector<std::int64_t>& stamps) {
 // Frames without pose between two stamps, both excluded.
 void AppendMissing(std::int64_t from_ns, std::int64_t count, double interval_ns,
                    std::vector<FrameStatus>& frames) {
+  if (count > kMaxMissingFrames) {
+    throw InputError(fmt::format(
+        "{} s without a pose after {} s are {} frames at the trajectory's median rate: a wrong "
+        "timestamp? If not, give the times of all frames (--times)",
+        FormatSeconds(std::llround(static_cast<double>(count) * interval_ns)),
+        FormatSeconds(from_ns), count));
+  }
   for (std::int64_t k = 1; k <= count; ++k) {
     const auto stamp = from_ns + std::llround(static_cast<double>(k) * interval_ns);
     frames.push_back({stamp, std::nullopt, false});

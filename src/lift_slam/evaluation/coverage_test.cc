@@ -110,6 +110,23 @@ TEST(Coverage, FileWithTimesAloneInfersTheFramesFromItsRate) {
   EXPECT_THROW(CoverageOf(OkPosesOf(FromStates("+++++"), false), reference, options), InputError);
 }
 
+TEST(Coverage, AStampFarOffIsRefusedInsteadOfFilled) {
+  Trajectory estimate = OkPosesOf(FromStates("+++++"), /*keep_index=*/false);
+  Trajectory reference = test::StraightLine(5, 1.0);
+  for (Trajectory* trajectory : {&estimate, &reference}) {
+    for (TrajectoryPose& pose : *trajectory) pose.frame_index = -1;
+  }
+  EvaluationOptions options;
+  options.estimate_lists_every_frame = false;
+  options.association.method = AssociationMethod::kTime;
+  estimate.back().timestamp_ns += 1'700'000'000'000'000'000;
+  EXPECT_THROW(CoverageOf(estimate, reference, options), InputError);
+  estimate.back().timestamp_ns = reference.back().timestamp_ns;
+  EXPECT_EQ(CoverageOf(estimate, reference, options).frames_total, 5);
+  reference.back().timestamp_ns += 1'700'000'000'000'000'000;
+  EXPECT_THROW(CoverageOf(estimate, reference, options), InputError);
+}
+
 TEST(Coverage, TimesFileGivesEveryFrameItsState) {
   const Trajectory all = test::StraightLine(5, 1.0);
   const Trajectory complete =

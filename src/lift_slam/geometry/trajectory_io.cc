@@ -85,6 +85,16 @@ void CheckColumns(const Row& row, std::size_t expected, TrajectoryFormat format)
                        more_allowed ? " or more" : "", Name(format)));
 }
 
+// Squares of what is larger lose all else.
+constexpr double kMaxCoordinate = 1e12;
+
+void CheckPosition(const Row& row, const Eigen::Vector3d& position) {
+  if (position.cwiseAbs().maxCoeff() > kMaxCoordinate) {
+    row.Fail(fmt::format("the position ({:g}, {:g}, {:g}) is out of range, expected metres",
+                         position.x(), position.y(), position.z()));
+  }
+}
+
 enum class QuaternionOrder { kXyzw, kWxyz };
 
 // Columns 1 to 7: position and quaternion.
@@ -97,7 +107,9 @@ Rigid3d ParseQuaternionPose(const Row& row, QuaternionOrder order) {
   if (std::abs(rotation.norm() - 1.0) > kMaxRotationNormError) {
     row.Fail(fmt::format("the quaternion has norm {:.6f}, expected 1", rotation.norm()));
   }
-  return {rotation, Eigen::Vector3d(v[0], v[1], v[2])};
+  const Eigen::Vector3d position(v[0], v[1], v[2]);
+  CheckPosition(row, position);
+  return {rotation, position};
 }
 
 // 12 columns from `first`: the rows of [R t].
@@ -109,6 +121,7 @@ Rigid3d ParseMatrixPose(const Row& row, std::size_t first) {
     const auto c = static_cast<Eigen::Index>(i % 4);
     (c < 3 ? rotation(r, c) : translation(r)) = ParseNumber(row, first + i);
   }
+  CheckPosition(row, translation);
   const Eigen::Matrix3d excess = rotation * rotation.transpose() - Eigen::Matrix3d::Identity();
   if (excess.cwiseAbs().maxCoeff() > 2.0 * kMaxRotationNormError || rotation.determinant() < 0.0) {
     row.Fail("the 3x3 block is no rotation matrix (orthonormal, determinant 1)");

@@ -163,12 +163,14 @@ TEST_F(TrajectoryIo, MalformedLinesAreNamedByFileAndLine) {
   EXPECT_THAT(ErrorOf(good + "2.0 0 0 0 0 0 0 1.002\n"), HasSubstr("norm 1.002"));
   EXPECT_THAT(ErrorOf(good + "2.0 0 0 0 0 0 0 0\n"), HasSubstr("norm 0.000"));
   EXPECT_THAT(ErrorOf("1 2 3\n"), HasSubstr(":1: 3 columns"));
+  EXPECT_THAT(ErrorOf(good + "2.0 0 1e300 0 0 0 0 1\n"), HasSubstr(":2: the position (0, 1e+300"));
   EXPECT_EQ(ErrorOf(good + "2.0 0 0 0 0 0 0 1.0009\n"), "no error");
 }
 
 TEST_F(TrajectoryIo, MalformedKittiFilesAreRefused) {
   const std::string good = "1 0 0 0 0 1 0 0 0 0 1 0\n";
   EXPECT_THAT(ErrorOf(good + "-1 0 0 0 0 1 0 0 0 0 1 0\n"), HasSubstr(":2: the 3x3 block"));
+  EXPECT_THAT(ErrorOf(good + "1 0 0 -1e13 0 1 0 0 0 0 1 0\n"), HasSubstr(":2: the position"));
   EXPECT_THAT(ErrorOf(good + "1 0 0 0 0 1 0.01 0 0 0 1 0\n"), HasSubstr(":2: the 3x3 block"));
   EXPECT_THAT(ErrorOf(good + "\n" + good), HasSubstr(":2: empty line"));
   EXPECT_EQ(ErrorOf(good + good + "\n\n"), "no error");
