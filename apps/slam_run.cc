@@ -233,6 +233,7 @@ SlamRun RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& option
                  return !stop.Requested();
                }},
               preparer, system);
+  const bool is_interrupted = stop.Requested();  // not one that comes after the last frame
   observer.Finish();
   SlamRun run{system.Finish(), {}};
   RunRecord& record = run.record;
@@ -242,7 +243,7 @@ SlamRun RunSlam(std::unique_ptr<Sequence> sequence, const ProgramOptions& option
   }
   record.wall_time_s = timer.ElapsedMs() * 1e-3;
   record.place_recognition_notice = places.notice;
-  record.interrupted = stop.Requested();
+  record.interrupted = is_interrupted;
   if (!maps.save.empty()) {
     run.save_error =
         SaveMaps(maps.save, MakeMapFileInfo(*preparer.view(), kind, ChecksumOf(places)), record,

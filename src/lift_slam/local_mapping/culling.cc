@@ -32,23 +32,24 @@ bool IsRedundant(const Map& map, const KeyFrame& keyframe, double redundant_shar
 
 }  // namespace
 
-int CullRecentPoints(const LocalMapperOptions& options, Map& map, std::vector<MapPointId>& recent) {
-  int erased = 0;
-  std::vector<MapPointId> still_recent;
-  for (const MapPointId id : recent) {
-    const MapPoint* point = map.FindPoint(id);
+CulledPoints CullRecentPoints(const LocalMapperOptions& options, int num_mapped, Map& map,
+                              std::vector<RecentPoint>& recent) {
+  CulledPoints culled;
+  std::vector<RecentPoint> still_recent;
+  for (const RecentPoint& made : recent) {
+    const MapPoint* point = map.FindPoint(made.id);
     if (point == nullptr) continue;
-    const int age = map.newest_keyframe().value - point->created_by.value;
+    const int age = num_mapped - made.made_at;
     const bool is_rarely_found = point->num_found < options.min_found_ratio * point->num_visible;
     if (is_rarely_found || (age >= 2 && point->num_observations() < kMinObservers)) {
-      map.ErasePoint(id);
-      ++erased;
+      map.ErasePoint(made.id);
+      ++(is_rarely_found ? culled.rarely_found : culled.few_observers);
     } else if (age < kTestKeyFrames) {
-      still_recent.push_back(id);
+      still_recent.push_back(made);
     }
   }
   recent = std::move(still_recent);
-  return erased;
+  return culled;
 }
 
 int CullKeyFrames(KeyFrameId newest, const LocalMapperOptions& options, Map& map) {

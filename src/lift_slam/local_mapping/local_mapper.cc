@@ -42,9 +42,9 @@ MappingReport LocalMapper::Process(KeyFrameId keyframe, float max_distance, Map&
   for (const MapPointId id : map.keyframe(keyframe).map_points) {
     if (id.valid()) map.UpdateAppearance(id);
   }
-  report.points_culled = CullRecentPoints(options_, map, recent_points_);
+  report.points_culled = CullRecentPoints(options_, ++num_mapped_, map, recent_points_);
   const std::vector<MapPointId> created = CreatePoints(keyframe, options_, max_distance, map);
-  recent_points_.insert(recent_points_.end(), created.begin(), created.end());
+  for (const MapPointId id : created) recent_points_.push_back({id, num_mapped_});
   report.points_created = static_cast<int>(created.size());
   report.create_ms = create_timer.ElapsedMs();
 
@@ -62,6 +62,13 @@ MappingReport LocalMapper::Process(KeyFrameId keyframe, float max_distance, Map&
     report.cull_ms = cull_timer.ElapsedMs();
   }
   return report;
+}
+
+void LocalMapper::Absorb(const LocalMapper& other, int offset) {
+  for (const RecentPoint& point : other.recent_points_) {
+    const int age = other.num_mapped_ - point.made_at;
+    recent_points_.push_back({MapPointId(point.id.value + offset), num_mapped_ - age});
+  }
 }
 
 MapBundleReport LocalMapper::AdjustLocalBundle(KeyFrameId keyframe, Map& map) const {

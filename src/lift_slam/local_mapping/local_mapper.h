@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lift_slam/local_mapping/culling.h"
 #include "lift_slam/local_mapping/local_mapper_options.h"
 #include "lift_slam/map/map.h"
 #include "lift_slam/optimization/map_bundle.h"
@@ -11,7 +12,7 @@ namespace lift_slam {
 
 struct MappingReport {
   int points_created = 0;
-  int points_culled = 0;
+  CulledPoints points_culled;
   int points_fused = 0;
   int keyframes_culled = 0;
   MapBundleReport bundle;
@@ -28,13 +29,17 @@ class LocalMapper {
   // Call once for each new keyframe, before tracking goes on. Descriptors match up to
   // `max_distance`: the strict one of the thresholds.
   MappingReport Process(KeyFrameId keyframe, float max_distance, Map& map);
+  // The other mapper's map has been absorbed (Map::Absorb), with ids of points moved up by
+  // `offset`.
+  void Absorb(const LocalMapper& other, int offset);
 
  private:
   MapBundleReport AdjustLocalBundle(KeyFrameId keyframe, Map& map) const;
 
   LocalMapperOptions options_;
   BundleOptions bundle_options_;
-  std::vector<MapPointId> recent_points_;
+  std::vector<RecentPoint> recent_points_;
+  int num_mapped_ = 0;
 };
 
 }  // namespace lift_slam

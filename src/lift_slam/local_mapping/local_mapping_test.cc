@@ -31,6 +31,13 @@ class LocalMappingTest : public testing::Test {
     }
   }
 
+  // All points, made before any keyframe was mapped.
+  std::vector<RecentPoint> RecentPoints() const {
+    std::vector<RecentPoint> recent;
+    for (const MapPointId id : map_.PointIds()) recent.push_back({id, 0});
+    return recent;
+  }
+
   SyntheticFrames scene_{kPoints, 3.0, 8.0, 31};
   Map map_{scene_.view()};
   LocalMapperOptions options_;
@@ -105,22 +112,22 @@ TEST_F(LocalMappingTest, RelaxedRepetitionCheckKeepsWhatItMeasured) {
 
 TEST_F(LocalMappingTest, RecentPointsRarelyFoundAreCulled) {
   FillHalf();
-  std::vector<MapPointId> recent = map_.PointIds();
-  map_.point(recent[0]).num_visible = 20;
-  map_.point(recent[0]).num_found = 2;
-  const MapPointId rare = recent[0];
-  EXPECT_EQ(CullRecentPoints(options_, map_, recent), 1);
+  std::vector<RecentPoint> recent = RecentPoints();
+  const MapPointId rare = recent[0].id;
+  map_.point(rare).num_visible = 20;
+  map_.point(rare).num_found = 2;
+  const CulledPoints culled = CullRecentPoints(options_, /*num_mapped=*/0, map_, recent);
+  EXPECT_EQ(culled.rarely_found, 1);
+  EXPECT_EQ(culled.few_observers, 0);
   EXPECT_EQ(map_.FindPoint(rare), nullptr);
   EXPECT_EQ(recent.size(), kPoints / 2U - 1U);
 }
 
 TEST_F(LocalMappingTest, PointsSeenTwiceAreCulledOnceTwoMoreKeyFramesHaveCome) {
   FillHalf();
-  std::vector<MapPointId> recent = map_.PointIds();
-  map_.AddKeyFrame(scene_.MakeFrame(2, CameraAt(0.5)));
-  EXPECT_EQ(CullRecentPoints(options_, map_, recent), 0);
-  map_.AddKeyFrame(scene_.MakeFrame(3, CameraAt(0.6)));
-  EXPECT_EQ(CullRecentPoints(options_, map_, recent), kPoints / 2);
+  std::vector<RecentPoint> recent = RecentPoints();
+  EXPECT_EQ(CullRecentPoints(options_, /*num_mapped=*/1, map_, recent).few_observers, 0);
+  EXPECT_EQ(CullRecentPoints(options_, /*num_mapped=*/2, map_, recent).few_observers, kPoints / 2);
   EXPECT_TRUE(recent.empty());
 }
 

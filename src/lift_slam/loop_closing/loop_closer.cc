@@ -134,7 +134,8 @@ std::vector<KeyFrameId> LoopCloser::FindSimilar(const FrameFeatures& features,
   return FindSimilarKeyFrames(features, map, places_, options_, options_.max_verified);
 }
 
-void LoopCloser::Absorb(const LoopCloser& other, int offset, const LoopEdge& merged_by) {
+void LoopCloser::Absorb(const LoopCloser& other, int offset, const LoopEdge& merged_by,
+                        KeyFrameId newest) {
   places_.Absorb(other.places_, offset);
   tree_.Absorb(other.tree_, offset);
   for (const LoopEdge& loop : other.loops_) {
@@ -142,7 +143,7 @@ void LoopCloser::Absorb(const LoopCloser& other, int offset, const LoopEdge& mer
         {KeyFrameId(loop.query.value + offset), KeyFrameId(loop.candidate.value + offset)});
   }
   loops_.push_back(merged_by);
-  last_loop_ = merged_by.query;
+  last_loop_ = newest;
   detector_.Reset();
   confirmation_.Reset();
   bundle_.GiveUp();

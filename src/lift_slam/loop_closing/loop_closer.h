@@ -67,8 +67,8 @@ class LoopCloser {
   // An adjustment of the whole map that is under way is not merged any more.
   void GiveUpBundle() { bundle_.GiveUp(); }
   // The other closer's map has been absorbed (Map::Absorb), with ids moved up by `offset`, for the
-  // loop's edge (ids of this map).
-  void Absorb(const LoopCloser& other, int offset, const LoopEdge& merged_by);
+  // loop's edge (ids of this map). `newest`: of this map then; the next keyframe comes after it.
+  void Absorb(const LoopCloser& other, int offset, const LoopEdge& merged_by, KeyFrameId newest);
 
   const std::vector<LoopEdge>& loops() const { return loops_; }
   const SpanningTree& tree() const { return tree_; }

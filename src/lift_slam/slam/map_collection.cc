@@ -67,7 +67,10 @@ std::optional<MapSession::Step> MapCollection::Relocalize(const PreparedFrame& p
   for (auto map = maps_.rbegin(); map != maps_.rend() && !found; ++map) {
     if (active_ != nullptr && map->get() != active_) continue;
     MapSession::Step step = (*map)->Relocalize(prepared);
-    if (step.tracking.refusal != FrameRefusal::kNone) continue;
+    if (step.tracking.refusal != FrameRefusal::kNone) {
+      ++record_.counters[fmt::format("relocalise.refused.{}", Name(step.tracking.refusal))];
+      continue;
+    }
     PlaceEvent event;
     event.kind = PlaceEventKind::kRelocalisation;
     event.frame_index = prepared.input.frame_index;

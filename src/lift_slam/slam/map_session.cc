@@ -188,7 +188,8 @@ FusionCounts MapSession::Absorb(MapSession&& other, const PlaceAttempt& attempt,
     for (MapPointId& point : merged.match.points) point.value += point.valid() ? offset.points : 0;
   }
   const FusionCounts fused = FusePlaces(merged.match, merged.edge, correction_options_, *map_);
-  loop_closer_->Absorb(*other.loop_closer_, offset.keyframes, merged.edge);
+  loop_closer_->Absorb(*other.loop_closer_, offset.keyframes, merged.edge, map_->newest_keyframe());
+  mapper_.Absorb(other.mapper_, offset.points);
 
   for (FrameReference frame : other.frames_) {
     frame.reference.value += offset.keyframes;
@@ -211,15 +212,19 @@ void MapSession::AdjustFinally(const BundleOptions& bundle,
   const bool is_short = IsCalibratedAsAWhole(calibration, *map_);
   const auto adjust = [&] {
     const Timer timer;
-    AdjustWholeMap(bundle, correction(), *map_);
+    const bool usable = AdjustWholeMap(bundle, correction(), *map_).solver.usable;
     times_ms["final_bundle"].push_back(timer.ElapsedMs());
+    return usable;
   };
   if (is_short) adjust();
   const Timer timer;
   calibration_ =
       is_short ? SelfCalibrateMap(calibration, *map_) : EstimateCalibration(calibration, *map_);
   times_ms["self_calibration"].push_back(timer.ElapsedMs());
-  if (!is_short) adjust();
+  // The map does not obey a correction that it was not adjusted with.
+  if (!is_short && !adjust() && calibration_.usable()) {
+    calibration_.refusal = CalibrationRefusal::kNoEstimate;
+  }
   const std::vector<double> scales = before.ChangesIn(*map_);
   map_->ScaleReferences(scales);
   ScaleFrames(scales);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace lift_slam {
 namespace {
@@ -99,6 +100,28 @@ PointRecord MakePointRecord(const MapSession& session, const MapPoint& point,
   return row;
 }
 
+// The second of two maps may have grown before the first one did.
+void SortKeyFramesByTime(RunRecord& record) {
+  std::vector<int> order(record.keyframes.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto stamp = [&](int row) {
+    return record.keyframes[static_cast<std::size_t>(row)].pose.timestamp_ns;
+  };
+  std::ranges::stable_sort(order, {}, stamp);
+  std::vector<KeyFrameRecord> sorted;
+  std::vector<int> new_row(order.size());
+  for (const int row : order) {
+    new_row[static_cast<std::size_t>(row)] = static_cast<int>(sorted.size());
+    sorted.push_back(record.keyframes[static_cast<std::size_t>(row)]);
+  }
+  record.keyframes = std::move(sorted);
+  for (PointRecord& point : record.points) {
+    for (PointRecord::Observation& observation : point.observations) {
+      observation.keyframe = new_row[static_cast<std::size_t>(observation.keyframe)];
+    }
+  }
+}
+
 }  // namespace
 
 void CompleteRunRecord(const std::vector<std::unique_ptr<MapSession>>& sessions,
@@ -119,6 +142,7 @@ void CompleteRunRecord(const std::vector<std::unique_ptr<MapSession>>& sessions,
       record.points.push_back(std::move(row));
     }
   }
+  SortKeyFramesByTime(record);
 }
 
 }  // namespace lift_slam

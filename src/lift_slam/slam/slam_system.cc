@@ -184,10 +184,14 @@ void SlamSystem::CountMapping(const MappingReport& report) {
   auto& counters = record_.counters;
   counters["mapping.keyframes_inserted"] += 1;
   counters["mapping.points_created"] += report.points_created;
-  counters["mapping.points_culled"] += report.points_culled;
+  counters["mapping.points_culled.rarely_found"] += report.points_culled.rarely_found;
+  counters["mapping.points_culled.few_observers"] += report.points_culled.few_observers;
   counters["mapping.points_fused"] += report.points_fused;
   counters["mapping.keyframes_culled"] += report.keyframes_culled;
   counters["mapping.observations_rejected"] += report.bundle.outliers;
+  if (report.bundle_ms > 0.0 && !report.bundle.solver.usable) {
+    ++counters["mapping.local_bundles_failed"];
+  }
 }
 
 RunRecord SlamSystem::Finish() {

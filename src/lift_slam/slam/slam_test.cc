@@ -55,6 +55,9 @@ TEST(SlamSystem, LeavesAConsistentRecord) {
     refused += frame.refusal != FrameRefusal::kNone ? 1 : 0;
   }
   EXPECT_EQ(CountOf(run, FrameRefusal::kNone), 40 - refused);
+  EXPECT_TRUE(std::ranges::is_sorted(run.keyframes, {}, [](const KeyFrameRecord& keyframe) {
+    return keyframe.pose.timestamp_ns;
+  }));
   for (const PointRecord& point : run.points) {
     EXPECT_TRUE(point.position.allFinite());
     EXPECT_GE(point.observations.size(), 2U);

@@ -8,6 +8,9 @@
 namespace lift_slam {
 namespace {
 
+// Newest waiting frames whose images are kept: 1 to 6 MB each.
+constexpr std::size_t kImagesKept = 20;
+
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 FrameRefusal RefusalOf(TwoViewStatus status) {
@@ -73,7 +76,7 @@ MapInitializer::Result MapInitializer::Process(const Frame& frame) {
     expected_[Index(match.a)] = frame.features->undistorted(match.b);
   }
   waiting_.push_back(frame);
-  waiting_.back().pyramid.reset();  // only the reference's is needed
+  LetGoOfOldImage();
   poor_frames_ = result.refusal == FrameRefusal::kTooFewMatches ? poor_frames_ + 1 : 0;
   if (poor_frames_ >= options_.max_poor_frames) MoveReference();
   if (waiting_.size() > Index(options_.max_waiting_frames) && reference_ > 0) {
@@ -92,6 +95,13 @@ void MapInitializer::SetReference(std::size_t waiting_index) {
   for (int i = 0; i < reference().features->size(); ++i) {
     expected_.push_back(reference().features->undistorted(i));
   }
+}
+
+// The reference's image is needed, and those it may move to.
+void MapInitializer::LetGoOfOldImage() {
+  if (waiting_.size() <= kImagesKept) return;
+  const std::size_t old = waiting_.size() - 1 - kImagesKept;
+  if (old != reference_) waiting_[old].pyramid.reset();
 }
 
 void MapInitializer::MoveReference() { SetReference((reference_ + waiting_.size()) / 2); }
@@ -140,6 +150,9 @@ std::optional<InitialMap> MapInitializer::BuildMap(const Frame& frame,
   initial.current.cam_from_world = map.keyframe(second_id).cam_from_world;
   initial.current.map_points = map.keyframe(second_id).map_points;
   initial.waiting = waiting_;
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    if (i != reference_) initial.waiting[i].pyramid.reset();
+  }
   initial.two_view = std::move(two_view);
   return initial;
 }

@@ -62,6 +62,7 @@ class MapInitializer {
  private:
   void SetReference(std::size_t waiting_index);
   void MoveReference();
+  void LetGoOfOldImage();
   TwoViewReconstruction Reconstruct(const Frame& frame,
                                     const std::vector<FeatureMatch>& matches) const;
   std::optional<InitialMap> BuildMap(const Frame& frame, const std::vector<FeatureMatch>& matches,

@@ -23,6 +23,13 @@ constexpr double kMaxIntervalChange = 0.25;
 // Weight of a frame in the smoothed share of points that are found.
 constexpr double kSmoothing = 0.05;
 
+// A motion over `steps` times the time it took.
+Rigid3d Over(double steps, const Rigid3d& motion) {
+  const Eigen::AngleAxisd turn(motion.rotation);
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(steps * turn.angle(), turn.axis())),
+          steps * motion.translation};
+}
+
 double FoundRatio(const TrackingResult& result) {
   return result.num_visible > 0 ? static_cast<double>(result.num_inliers) / result.num_visible
                                 : 0.0;
@@ -55,6 +62,7 @@ void Tracker::KeyFrameMapped(const Map& map, KeyFrameId keyframe) {
 
 TrackingResult Tracker::Track(Map& map, Frame& frame) {
   TrackingResult result;
+  LocalTrack local;
   prior_.Forget();
   result.thresholds = Thresholds(map);
   ++frames_since_keyframe_;
@@ -63,10 +71,10 @@ TrackingResult Tracker::Track(Map& map, Frame& frame) {
   } else {
     bool found = last_was_tracked_ &&
                  (TrackWithMotionModel(map, frame, result) || TrackReferenceKeyFrame(map, frame));
-    if (found) found = TrackLocalMap(map, frame, /*wide=*/false, result);
+    if (found) found = TrackLocalMap(map, frame, /*wide=*/false, result, local);
     if (!found && Recover(map, frame)) {
       result.recovered = true;
-      found = TrackLocalMap(map, frame, /*wide=*/true, result);
+      found = TrackLocalMap(map, frame, /*wide=*/true, result, local);
     }
     if (!found) {
       result.refusal = result.num_matches < options_.min_inliers ? FrameRefusal::kTooFewTracked
@@ -74,7 +82,7 @@ TrackingResult Tracker::Track(Map& map, Frame& frame) {
     }
   }
   if (result.refusal != FrameRefusal::kNone) return Refuse(result.refusal, frame, result);
-  return Conclude(map, frame, result);
+  return Conclude(local, frame, result, map);
 }
 
 TrackingResult Tracker::Refuse(FrameRefusal refusal, Frame& frame, TrackingResult result) {
@@ -87,7 +95,10 @@ TrackingResult Tracker::Refuse(FrameRefusal refusal, Frame& frame, TrackingResul
   return result;
 }
 
-TrackingResult Tracker::Conclude(const Map& map, const Frame& frame, TrackingResult result) {
+TrackingResult Tracker::Conclude(const LocalTrack& local, const Frame& frame, TrackingResult result,
+                                 Map& map) {
+  if (local.reference.valid()) reference_ = local.reference;
+  CountSightings(local.visible, frame, map);
   prior_.Learn(frame.cam_from_world);
   adaptive_ = Adapt(adaptive_, matching_, result.num_last_matches, result.num_last_outliers);
   const double ratio = FoundRatio(result);
@@ -105,19 +116,25 @@ TrackingResult Tracker::Relocalize(Map& map, Frame& frame, std::span<const KeyFr
   TrackingResult result;
   ForgetExpected();
   result.thresholds = LoosestThresholds(map);
-  const KeyFrameId reference = reference_;
+  result.refusal = FrameRefusal::kPlaceNotRecognized;
   for (const KeyFrameId keyframe : similar) {
-    if (map.FindKeyFrame(keyframe) == nullptr || !TryKeyFrame(map, keyframe, frame)) continue;
-    TrackLocalMap(map, frame, /*wide=*/true, result);
+    if (map.FindKeyFrame(keyframe) == nullptr) continue;
+    if (result.refusal == FrameRefusal::kPlaceNotRecognized) {
+      result.refusal = FrameRefusal::kPoseRejected;
+    }
+    if (!TryKeyFrame(map, keyframe, frame)) continue;
+    result.refusal = FrameRefusal::kTooFewTracked;
+    LocalTrack local;
+    TrackLocalMap(map, frame, /*wide=*/true, result, local);
     if (result.num_inliers < options_.min_relocalised_inliers ||
         FoundRatio(result) < options_.min_relocalised_ratio * usual_found_ratio_) {
       continue;
     }
     result.recovered = true;
-    return Conclude(map, frame, result);
+    result.refusal = FrameRefusal::kNone;
+    return Conclude(local, frame, result, map);
   }
-  reference_ = reference;
-  return Refuse(FrameRefusal::kTooFewTracked, frame, result);
+  return Refuse(result.refusal, frame, result);
 }
 
 void Tracker::MapCorrected(const Map& map, KeyFrameId keyframe, double scale) {
@@ -137,14 +154,25 @@ void Tracker::Remember(const Frame& frame) {
 }
 
 bool Tracker::IsExpectable(const Frame& frame) const {
-  if (!velocity_ || num_by_motion_ < kMinFramesByMotion) return false;
+  return velocity_ && num_by_motion_ >= kMinFramesByMotion && IsAtUsualInterval(frame);
+}
+
+bool Tracker::IsAtUsualInterval(const Frame& frame) const {
   const auto interval = static_cast<double>(frame.timestamp_ns - last_.timestamp_ns);
   const auto usual = static_cast<double>(velocity_interval_ns_);
   return std::abs(interval - usual) <= kMaxIntervalChange * usual;
 }
 
+Rigid3d Tracker::ExpectedMotion(const Frame& frame) const {
+  if (velocity_interval_ns_ <= 0 || IsAtUsualInterval(frame)) return *velocity_;
+  return Over(static_cast<double>(frame.timestamp_ns - last_.timestamp_ns) /
+                  static_cast<double>(velocity_interval_ns_),
+              *velocity_);
+}
+
 bool Tracker::TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result) {
-  frame.cam_from_world = velocity_ ? *velocity_ * last_.cam_from_world : last_.cam_from_world;
+  frame.cam_from_world =
+      velocity_ ? ExpectedMotion(frame) * last_.cam_from_world : last_.cam_from_world;
   if (IsExpectable(frame)) prior_.Expect(last_.cam_from_world, frame.cam_from_world);
   const int enough = std::max(
       options_.min_matches,
@@ -223,17 +251,18 @@ bool Tracker::TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) con
   return OptimizeFramePose(map, options_.pose, frame) >= options_.min_inliers_first;
 }
 
-bool Tracker::TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result) {
-  const LocalMap local = CollectLocalMap(map, frame, options_.max_local_keyframes);
-  if (local.reference.valid()) reference_ = local.reference;
-  const LocalMatchResult matched = MatchLocalPoints(
-      map, local.points, wide ? kWideRadiusFactor : 1.0F, result.thresholds.high, frame);
+bool Tracker::TrackLocalMap(const Map& map, Frame& frame, bool wide, TrackingResult& result,
+                            LocalTrack& local) const {
+  const LocalMap around = CollectLocalMap(map, frame, options_.max_local_keyframes);
+  if (around.reference.valid()) local.reference = around.reference;
+  LocalMatchResult matched = MatchLocalPoints(map, around.points, wide ? kWideRadiusFactor : 1.0F,
+                                              result.thresholds.high, frame);
   AlignMatches(map, frame);
   result.num_matches = frame.CountMatches();
   const CenterPrior prior = prior_.For(result.num_matches, frame.features->size());
   result.num_inliers = OptimizeFramePose(map, options_.pose, frame, prior);
   result.num_visible = static_cast<int>(matched.visible.size());
-  CountSightings(matched.visible, frame, map);
+  local.visible = std::move(matched.visible);
   const bool is_expected = prior.inverse_variance > 0.0;
   return result.num_inliers >= (is_expected ? options_.min_inliers_expected : options_.min_inliers);
 }

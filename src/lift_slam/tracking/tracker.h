@@ -72,18 +72,29 @@ class Tracker {
   MatchingThresholds Thresholds(const Map& map) const {
     return adaptive_.In(map.view().thresholds, matching_.thresholds);
   }
+  struct LocalTrack {
+    KeyFrameId reference;
+    std::vector<MapPointId> visible;
+  };
+
   // Whether constant velocity can be trusted to lead to this frame.
   bool IsExpectable(const Frame& frame) const;
+  // Whether the frame comes as long after the last one as that one did after its own.
+  bool IsAtUsualInterval(const Frame& frame) const;
+  // The last motion, over the time since. Only with a velocity.
+  Rigid3d ExpectedMotion(const Frame& frame) const;
   void ForgetExpected();
   bool TrackWithMotionModel(const Map& map, Frame& frame, TrackingResult& result);
   bool TrackReferenceKeyFrame(const Map& map, Frame& frame);
   bool Recover(const Map& map, Frame& frame);
   MatchingThresholds LoosestThresholds(const Map& map) const;
   bool TryKeyFrame(const Map& map, KeyFrameId keyframe, Frame& frame) const;
-  // Whether enough points agree with the pose.
-  bool TrackLocalMap(Map& map, Frame& frame, bool wide, TrackingResult& result);
+  // Whether enough points agree with the pose. What it finds counts once the frame is tracked.
+  bool TrackLocalMap(const Map& map, Frame& frame, bool wide, TrackingResult& result,
+                     LocalTrack& local) const;
   TrackingResult Refuse(FrameRefusal refusal, Frame& frame, TrackingResult result);
-  TrackingResult Conclude(const Map& map, const Frame& frame, TrackingResult result);
+  TrackingResult Conclude(const LocalTrack& local, const Frame& frame, TrackingResult result,
+                          Map& map);
   void Remember(const Frame& frame);
 
   TrackerOptions options_;

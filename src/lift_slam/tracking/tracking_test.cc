@@ -127,6 +127,64 @@ TEST_F(TrackingTest, AnotherSceneIsRefusedWithAReasonAndLeavesNoMatches) {
   EXPECT_TRUE(recovered.recovered);
 }
 
+int SightingsOf(const Map& map) {
+  int count = 0;
+  for (const MapPointId id : map.PointIds()) count += map.point(id).num_visible;
+  return count;
+}
+
+TEST_F(TrackingTest, PointsRememberNothingOfARefusedFrame) {
+  const std::vector<MapPointId> points = scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
+  Frame last = scene_.MakeFrame(1, CameraAt(0.2));
+  last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
+  TrackerOptions options;
+  options.min_inliers = kPoints;  // with what is left below no pose is good enough
+  Tracker tracker(options, MatchingOptions(), 0);
+  tracker.Start(map_, last, std::nullopt);
+  for (std::size_t i = 100; i < points.size(); ++i) map_.ErasePoint(points[i]);
+  const int before = SightingsOf(map_);
+  Frame frame = scene_.MakeFrame(2, CameraAt(0.2));
+  const TrackingResult result = tracker.Track(map_, frame);
+  EXPECT_NE(result.refusal, FrameRefusal::kNone);
+  EXPECT_GT(result.num_visible, 50);
+  EXPECT_EQ(SightingsOf(map_), before);
+}
+
+TEST_F(TrackingTest, AfterMissingFramesTheMotionIsThatOfTheTimeSince) {
+  scene_.FillMap({CameraAt(0.0), CameraAt(0.1)}, map_);
+  Frame last = scene_.MakeFrame(1, CameraAt(0.1));
+  last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
+  Tracker tracker({}, MatchingOptions(), 0);
+  tracker.Start(map_, last, std::nullopt);
+  for (const int k : {2, 3, 10, 11}) {
+    Frame frame = scene_.MakeFrame(k, CameraAt(0.1 * k), 0.3);
+    const TrackingResult result = tracker.Track(map_, frame);
+    ASSERT_EQ(result.refusal, FrameRefusal::kNone) << "frame " << k;
+    // Found in the narrow window around the expected places, nearly all that is seen.
+    if (k == 2) continue;  // no velocity is known yet
+    EXPECT_GT(result.num_last_matches, 9 * result.num_visible / 10) << "frame " << k;
+  }
+}
+
+TEST_F(TrackingTest, AReferenceThatMovedStillHasItsImage) {
+  MapInitializer initializer(scene_.view(), {}, {}, 0);
+  const auto pyramid = std::make_shared<const ImagePyramid>(
+      BuildPyramid(GrayImage(cv::Mat::zeros(480, 640, CV_8UC1)), {}));
+  const auto process = [&](SyntheticFrames& scene, int k, double x) {
+    Frame frame = scene.MakeFrame(k, CameraAt(x));
+    frame.pyramid = pyramid;
+    return initializer.Process(frame);
+  };
+  SyntheticFrames other(kPoints, 3.0, 8.0, 99);
+  process(other, 0, 0.0);
+  for (int k = 1; k < 4; ++k) {
+    EXPECT_EQ(process(scene_, k, 0.0).refusal, FrameRefusal::kTooFewMatches);
+  }
+  const auto result = process(scene_, 4, 0.3);
+  ASSERT_TRUE(result.initial.has_value());
+  EXPECT_EQ(result.initial->map->keyframe(KeyFrameId(0)).pyramid, pyramid);
+}
+
 TEST_F(TrackingTest, InitializerRefusesAStillCameraAndStartsOnMotion) {
   MapInitializer initializer(scene_.view(), {}, {}, 0);
   EXPECT_EQ(initializer.Process(scene_.MakeFrame(0, CameraAt(0.0))).refusal,
