@@ -14,7 +14,8 @@ namespace lift_slam {
 class KeyedFile {
  public:
   // Accepts OpenCV's "%YAML:1.0" first line and its matrix tags; JSON is YAML too.
-  // Throws InputError when the file cannot be read, is not valid, or has no keys.
+  // Throws InputError when the file cannot be read, is not valid, has no keys, holds a second
+  // document, or is nested too deeply or too long for a calibration.
   static KeyedFile ReadYaml(const std::filesystem::path& path);
   // Elements and text only, as OpenCV's FileStorage writes; the root element is left out of keys.
   static KeyedFile ReadXml(const std::filesystem::path& path);
