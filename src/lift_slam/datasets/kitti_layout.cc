@@ -80,7 +80,7 @@ void AssignNominalTimes(const LayoutRequest& request, const fs::path& times_file
 
 std::vector<std::int64_t> ReadTimes(const fs::path& file) {
   std::vector<std::int64_t> times_ns;
-  for (const TableRow& row : ReadTable(file)) {
+  for (const TableRow& row : ReadTable(file, EmptyLines::kRefuseBetweenRows)) {
     if (row.size() != 1) row.Fail("one time in seconds");
     times_ns.push_back(row.SecondsAsNs(0));
   }
@@ -89,7 +89,7 @@ std::vector<std::int64_t> ReadTimes(const fs::path& file) {
 
 std::vector<std::int64_t> ReadDates(const fs::path& file) {
   std::vector<std::int64_t> times_ns;
-  for (const TableRow& row : ReadTable(file)) {
+  for (const TableRow& row : ReadTable(file, EmptyLines::kRefuseBetweenRows)) {
     const auto time_ns = row.size() == 2 ? ParseDateAsNs(row[0], row[1]) : std::nullopt;
     if (!time_ns) row.Fail("a date and time such as 2011-09-26 13:02:25.964389445");
     times_ns.push_back(*time_ns);

@@ -69,13 +69,18 @@ void TableRow::Fail(std::string_view expected) const {
   throw InputError(fmt::format("{}:{}: expected {}, found '{}'", file_, line_, expected, found));
 }
 
-std::vector<TableRow> ReadTable(const std::filesystem::path& path) {
+std::vector<TableRow> ReadTable(const std::filesystem::path& path, EmptyLines empty_lines) {
   std::vector<TableRow> rows;
-  int number = 0;
+  int number = 0, empty_line = 0;
   for (const std::string& line : ReadLines(path)) {
     ++number;
     std::vector<std::string> fields = SplitFields(line);
+    if (fields.empty() && empty_line == 0) empty_line = number;
     if (fields.empty() || fields.front().front() == '#') continue;
+    if (empty_line != 0 && empty_lines == EmptyLines::kRefuseBetweenRows) {
+      throw InputError(fmt::format("{}:{}: empty line between rows; each line belongs to one image",
+                                   path.string(), empty_line));
+    }
     rows.emplace_back(path, number, std::move(fields));
   }
   return rows;

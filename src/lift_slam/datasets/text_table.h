@@ -39,8 +39,14 @@ class TableRow {
   std::vector<std::string> fields_;
 };
 
+enum class EmptyLines {
+  kSkip,
+  kRefuseBetweenRows,  // where a line is an image: one left out would shift all that follow
+};
+
 // All lines but empty ones and comments ('#' first).
-// Throws InputError when the file cannot be read.
-std::vector<TableRow> ReadTable(const std::filesystem::path& path);
+// Throws InputError when the file cannot be read or has an empty line that is refused.
+std::vector<TableRow> ReadTable(const std::filesystem::path& path,
+                                EmptyLines empty_lines = EmptyLines::kSkip);
 
 }  // namespace lift_slam
