@@ -34,6 +34,8 @@ class KeyedFile {
   std::vector<int> WholeNumbers(const std::string& key, std::size_t count) const;
   // The same number of values as asked for, or InputError.
   std::vector<double> Numbers(const std::string& key, std::size_t count) const;
+  // Whether all its values are the number zero; true without values.
+  bool AllZero(const std::string& key) const;
   // The fallback stands for an absent key only.
   double NumberOr(const std::string& key, double fallback) const;
   int WholeNumberOr(const std::string& key, int fallback) const;
