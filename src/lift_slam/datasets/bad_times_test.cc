@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "lift_slam/datasets/dataset_test_files.h"
 #include "lift_slam/datasets/sequence.h"
 
@@ -77,6 +79,68 @@ TEST(TumMonoTimes, TwoTimesOfOneIdAreRefused) {
   WriteTumMono(folder, "00001 0.1 1\n00002 0.2 1\n00001 0.3 1\n");
   EXPECT_THAT(OpenError(folder.path()),
               AllOf(HasSubstr("times.txt:3: expected an id that no line"), HasSubstr("00001 0.3")));
+}
+
+TEST(EurocTimes, InSecondsAreRefused) {
+  const TestFolder folder;
+  folder.WriteImage("mav0/cam0/data/1.png");
+  folder.Write("mav0/cam0/sensor.yaml", "resolution: [12, 8]\nintrinsics: [10, 11, 5.5, 3.5]\n");
+  folder.Write("mav0/cam0/data.csv", "#t,f\n1403636579.050,1.png\n1403636579.100,2.png\n");
+  EXPECT_THAT(OpenError(folder.path()),
+              AllOf(HasSubstr("data.csv:2: expected a whole number in column 1"),
+                    HasSubstr("1403636579.050")));
+}
+
+TEST(NominalTimes, ThatDoNotFitNameTheImage) {
+  const TestFolder folder;
+  folder.WriteImage("image_0/1403636579763555584.png");
+  folder.WriteImage("image_0/1403636579813555456.png");
+  folder.Write("calib.txt", kKittiCalibration);
+  EXPECT_THAT(OpenError(folder.path()),
+              AllOf(HasSubstr("1403636579763555584.png: frame 1403636579763555584 at 10 frames/s"),
+                    HasSubstr("a file with their times")));
+}
+
+TEST(NominalTimes, TheLargestImageNumberIsNoOverflow) {
+  const TestFolder folder;
+  folder.WriteImage("image_0/0.png");
+  folder.WriteImage("image_0/9223372036854775807.png");
+  folder.Write("calib.txt", kKittiCalibration);
+  folder.Write("times.txt", "0.5\n");
+  const auto sequence = OpenSequence(folder.path().string());
+  EXPECT_THAT(sequence->info().warnings,
+              testing::Contains(HasSubstr("9223372036854775806 images are missing")));
+}
+
+TEST(FrameRate, OfTheOptionMustBeUsable) {
+  const TestFolder folder;
+  folder.WriteImage("1.png");
+  folder.Write("camera.yaml", kTestCamera);
+  SequenceOptions options;
+  for (const double rate_hz : {1e-300, 9e-4, 1.1e5, -1.0, HUGE_VAL, std::nan("")}) {
+    options.frame_rate_hz = rate_hz;
+    EXPECT_THAT(
+        OpenError(folder.path(), options),
+        AllOf(HasSubstr("the frame rate is"), HasSubstr("expected 0.001 to 100000 frames/s")));
+  }
+  options.frame_rate_hz = 1e-3;
+  EXPECT_EQ(OpenError(folder.path(), options), "no error");
+}
+
+TEST(FrameRate, OfACameraFileMustBeUsable) {
+  const TestFolder folder;
+  folder.WriteImage("1.png");
+  const auto error = [&](const std::string& text) {
+    folder.Write("camera.yaml", text);
+    return OpenError(folder.path());
+  };
+  EXPECT_THAT(error(kTestCamera + std::string("frame_rate_hz: 1e-300\n")),
+              AllOf(HasSubstr("camera.yaml:8: key 'frame_rate_hz'"), HasSubstr("0.001 to 100000")));
+  EXPECT_THAT(error("intrinsics: [10, 11, 5.5, 3.5]\nrate_hz: -20\n"),
+              HasSubstr("camera.yaml:2: key 'rate_hz'"));
+  EXPECT_THAT(error("Camera.fx: 5\nCamera.fy: 5\nCamera.cx: 5\nCamera.cy: 3\nCamera.fps: 1e9\n"),
+              HasSubstr("camera.yaml:5: key 'Camera.fps'"));
+  EXPECT_EQ(error(kTestCamera + std::string("frame_rate_hz: 0\n")), "no error");
 }
 
 }  // namespace

@@ -65,9 +65,7 @@ ImageList ListImageFolder(const LayoutRequest& request) {
   } else {
     const double rate = NominalRate(request, list.camera ? list.camera : request.given_camera,
                                     kNominalRateHz, "the images have no times.txt", list.warnings);
-    for (ListedImage& image : list.images) {
-      image.timestamp_ns = NominalTimeNs(image.frame_index, rate);
-    }
+    AssignNominalTimes(rate, list.images);
   }
   if (const auto truth = FindInFolders(request.folder, image_folder, "groundtruth.txt")) {
     list.truth = TruthFile{*truth, DetectTruthFormat(*truth)};

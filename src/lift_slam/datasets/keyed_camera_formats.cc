@@ -4,6 +4,7 @@
 
 #include "lift_slam/datasets/camera_formats.h"
 #include "lift_slam/datasets/distortion_keys.h"
+#include "lift_slam/datasets/frame_rate.h"
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/input_error.h"
 
@@ -21,6 +22,15 @@ std::vector<double> ReadNamed(const KeyedFile& file, const std::string& prefix,
   std::vector<double> values;
   for (const std::string& name : names) values.push_back(file.NumberOr(prefix + name, 0.0));
   return values;
+}
+
+// 0 when the file does not say it, or says 0.
+double ReadFrameRate(const KeyedFile& file, const std::string& key) {
+  const double rate_hz = file.NumberOr(key, 0.0);
+  if (rate_hz != 0.0 && !IsFrameRate(rate_hz)) {
+    file.Fail(key, fmt::format("{} to {} frames/s", kMinFrameRateHz, kMaxFrameRateHz));
+  }
+  return rate_hz;
 }
 
 bool AllZero(std::span<const double> values) {
@@ -131,8 +141,7 @@ Camera ReadOwnCamera(const KeyedFile& file) {
   const std::vector<double> intrinsics = {file.Number("fx"), file.Number("fy"), file.Number("cx"),
                                           file.Number("cy")};
   camera.pinhole = MakePinhole(intrinsics, file.WholeNumber("width"), file.WholeNumber("height"));
-  camera.frame_rate_hz = file.NumberOr("frame_rate_hz", 0.0);
-  if (camera.frame_rate_hz < 0.0) file.Fail("frame_rate_hz", "a rate above zero");
+  camera.frame_rate_hz = ReadFrameRate(file, "frame_rate_hz");
   return camera;
 }
 
@@ -174,7 +183,7 @@ Camera ReadKalibrCamera(const KeyedFile& file, std::string_view camera_name) {
 
 Camera ReadEurocCamera(const KeyedFile& file) {
   Camera camera = ReadRigCamera(file, "", "distortion_coefficients");
-  camera.frame_rate_hz = file.NumberOr("rate_hz", 0.0);
+  camera.frame_rate_hz = ReadFrameRate(file, "rate_hz");
   return camera;
 }
 
@@ -185,7 +194,7 @@ Camera ReadOrbSlamCamera(const KeyedFile& file) {
                                           file.Number(prefix + "cx"), file.Number(prefix + "cy")};
   camera.pinhole = MakePinhole(intrinsics, file.WholeNumberOr("Camera.width", 0),
                                file.WholeNumberOr("Camera.height", 0));
-  camera.frame_rate_hz = file.NumberOr("Camera.fps", 0.0);
+  camera.frame_rate_hz = ReadFrameRate(file, "Camera.fps");
   const std::string type = file.Has("Camera.type") ? file.Text("Camera.type") : "PinHole";
   if (type == "KannalaBrandt8") {
     camera.distortion =

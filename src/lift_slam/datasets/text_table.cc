@@ -14,7 +14,7 @@ namespace lift_slam {
 namespace {
 
 constexpr std::string_view kSeparators = " \t,";
-constexpr std::int64_t kMaxSizePx = 1'000'000;
+constexpr double kMaxSizePx = 1e6;
 
 std::vector<std::string> SplitFields(std::string_view line) {
   std::vector<std::string> fields;
@@ -25,6 +25,14 @@ std::vector<std::string> SplitFields(std::string_view line) {
     begin = line.find_first_not_of(kSeparators, end);
   }
   return fields;
+}
+
+// ParseIndex with a sign.
+std::optional<std::int64_t> ParseWholeNumber(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  const std::optional<std::int64_t> value = ParseIndex(text);
+  return value && negative ? -*value : value;
 }
 
 }  // namespace
@@ -43,14 +51,16 @@ std::int64_t TableRow::SecondsAsNs(std::size_t column) const {
 }
 
 std::int64_t TableRow::Index(std::size_t column) const {
-  const auto value = column < size() ? ParseNanoseconds(fields_[column]) : std::nullopt;
+  const auto value = column < size() ? ParseWholeNumber(fields_[column]) : std::nullopt;
   if (!value) Fail(fmt::format("a whole number in column {}", column + 1));
   return *value;
 }
 
 int TableRow::SizePx(std::size_t column) const {
-  const std::int64_t size = Index(column);
-  if (size < 1 || size > kMaxSizePx) Fail(fmt::format("an image size in column {}", column + 1));
+  const double size = Number(column);  // KITTI writes 1.392000e+03
+  if (!(size >= 1.0 && size <= kMaxSizePx) || size != std::floor(size)) {
+    Fail(fmt::format("an image size in whole pixels in column {}", column + 1));
+  }
   return static_cast<int>(size);
 }
 

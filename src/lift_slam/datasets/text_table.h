@@ -24,8 +24,9 @@ class TableRow {
   // These throw InputError when the field is missing or no such value; numbers must be finite.
   double Number(std::size_t column) const;
   std::int64_t SecondsAsNs(std::size_t column) const;
+  // Digits with or without a sign; a fraction or an exponent is refused, not rounded.
   std::int64_t Index(std::size_t column) const;
-  // A width or height, 1 to 1e6 pixels.
+  // A width or height, 1 to 1e6 whole pixels, in any notation.
   int SizePx(std::size_t column) const;
   // Columns first to first + count - 1.
   std::vector<double> Numbers(std::size_t first, std::size_t count) const;

@@ -105,8 +105,9 @@ std::vector<ListedImage> NumberTumMono(const LayoutRequest& request, const fs::p
   std::vector<ListedImage> images;
   for (const fs::path& file : ListImages(image_folder)) {
     const auto index = static_cast<std::int64_t>(images.size());
-    images.push_back({index, NominalTimeNs(index, rate), file});
+    images.push_back({index, 0, file});
   }
+  AssignNominalTimes(rate, images);
   return images;
 }
 

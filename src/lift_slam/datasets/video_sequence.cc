@@ -76,7 +76,7 @@ class VideoSequence : public Sequence {
       case TimeSource::kNominalRate:
         break;
     }
-    return NominalTimeNs(frame_index, clock_.rate_hz);
+    return NominalTimeNs(frame_index, clock_.rate_hz).value_or(kNoTimeNs);
   }
 
   void Judge(GrayImage image, SequenceFrame& frame) {
@@ -156,7 +156,7 @@ std::vector<ListedImage> ListFrames(const VideoReader& reader, const VideoClock&
   const double rate_hz = clock.rate_hz > 0.0 ? clock.rate_hz : kNominalRateHz;
   std::vector<ListedImage> frames;
   for (std::int64_t i = 0; i < reader.NumFrames().value_or(1); ++i) {
-    frames.push_back({i, NominalTimeNs(i, rate_hz), {}});
+    frames.push_back({i, NominalTimeNs(i, rate_hz).value_or(kNoTimeNs), {}});
   }
   return frames;
 }
