@@ -23,6 +23,11 @@ bool NamesDistortion(const std::string& name) {
   return lower.starts_with("dist") && !lower.starts_with("distance");
 }
 
+// What a matrix has beside its values.
+bool IsMatrixHeader(const std::string& key) {
+  return key.ends_with("/rows") || key.ends_with("/cols") || key.ends_with("/dt");
+}
+
 // k1, K_1, P2, kappa1.
 bool NamesCoefficient(const std::string& name) {
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name.back())) == 0) return false;
@@ -50,7 +55,7 @@ std::string OrbSlamName(const std::string& key) {
 void RefuseOtherDistortionKeys(const KeyedFile& file, const std::string& prefix,
                                const std::vector<std::string>& known) {
   for (const std::string& key : file.Keys()) {
-    if (!key.starts_with(prefix)) continue;
+    if (!key.starts_with(prefix) || IsMatrixHeader(key)) continue;
     const std::string rest = key.substr(prefix.size());
     const std::string name = rest.substr(0, rest.find('/'));
     if (!NamesDistortion(name) || Contains(known, name) || file.AllZero(key)) continue;

@@ -65,9 +65,10 @@ TEST(OpenCvDistortion, OtherKeysAreRefused) {
                       HasSubstr("read from distortion_coefficients")));
   }
   const std::string file = kOpenCv;
-  EXPECT_THAT(ReadError(file + "dist_coeffs:\n  rows: 1\n  data: [0.1, 0, 0, 0]\n"),
+  EXPECT_THAT(ReadError(file + "dist_coeffs:\n  cols: 4\n  data: [0.1, 0, 0, 0]\n"),
               HasSubstr("key 'dist_coeffs/data'"));
   EXPECT_TRUE(HasNone(Read(file + "dist_coeffs: [0, 0, 0, 0]\n")));
+  EXPECT_TRUE(HasNone(Read(file + "dist_coeffs:\n  cols: 4\n  dt: d\n  data: [0, 0, 0, 0]\n")));
   EXPECT_TRUE(HasNone(Read(file + "distance_to_target: 3\n")));
 }
 

@@ -30,8 +30,8 @@ void AssignTimes(const fs::path& file, ImageList& list) {
   if (rows.empty()) throw InputError(fmt::format("{}: holds no time", file.string()));
   if (rows.size() > num_images) {
     throw InputError(
-        fmt::format("{} has {} times for {} images, and no numbers say which of them are missing; "
-                    "expected one time for each image",
+        fmt::format("{} has {} times for {} images; expected one time for each image, in the order "
+                    "of the names",
                     file.string(), rows.size(), num_images));
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
