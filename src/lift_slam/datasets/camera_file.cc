@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lift_slam/datasets/camera_formats.h"
+#include "lift_slam/datasets/frame_rate.h"
 #include "lift_slam/datasets/kitti_calibration.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
@@ -87,7 +88,8 @@ void WriteCameraFile(const fs::path& path, const Camera& camera) {
   text += std::visit(DistortionYaml(), camera.distortion);
   text += fmt::format("width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\n", p.width, p.height,
                       p.fx, p.fy, p.cx, p.cy);
-  if (camera.frame_rate_hz > 0.0) text += fmt::format("frame_rate_hz: {}\n", camera.frame_rate_hz);
+  if (IsFrameRate(camera.frame_rate_hz))
+    text += fmt::format("frame_rate_hz: {}\n", camera.frame_rate_hz);
   WriteTextAtomically(path, text);
 }
 

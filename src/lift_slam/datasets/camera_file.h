@@ -26,7 +26,8 @@ inline constexpr std::string_view kCameraFileExample =
 // that is not supported.
 Camera ReadCameraFile(const std::filesystem::path& path, std::string_view camera_name = {});
 
-// Our own YAML; reading it back gives the same numbers.
+// Our own YAML; reading it back gives the same numbers. A frame rate outside 1e-3 to 1e5 Hz, which
+// could not be read, is left out as unknown.
 void WriteCameraFile(const std::filesystem::path& path, const Camera& camera);
 
 // The first of these names that exists in a folder: camera.yaml, camera.yml, calibration.yaml,

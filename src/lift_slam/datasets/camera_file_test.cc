@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lift_slam/datasets/dataset_test_files.h"
+#include "lift_slam/util/file.h"
 
 namespace lift_slam {
 namespace {
@@ -149,6 +150,7 @@ TEST(OpenCvCameraFile, ReadsXml) {
 }
 
 TEST(OpenCvCameraFile, ReadsWhatFileStorageWrites) {
+  const std::string byte_order_mark = "\xEF\xBB\xBF";
   for (const char* name : {"c.yaml", "c.xml", "c.json"}) {
     const TestFolder folder;
     {
@@ -157,9 +159,12 @@ TEST(OpenCvCameraFile, ReadsWhatFileStorageWrites) {
       storage << "camera_matrix" << (cv::Mat_<double>(3, 3) << 650, 0, 320, 0, 651, 241, 0, 0, 1);
       storage << "distortion_coefficients" << (cv::Mat_<double>(1, 5) << -0.28, 0.09, 0, 0, 0.01);
     }
-    const Camera camera = ReadCameraFile(folder / name);
-    ExpectPinhole(camera, {650, 651, 320, 241, 640, 480});
-    ExpectRadialTangential(camera, -0.28, 0.09, 0.0, 0.0, 0.01);
+    const std::string text = ReadText(folder / name);
+    for (const std::string& start : {std::string(), byte_order_mark}) {
+      const Camera camera = Read(name, start + text);
+      ExpectPinhole(camera, {650, 651, 320, 241, 640, 480});
+      ExpectRadialTangential(camera, -0.28, 0.09, 0.0, 0.0, 0.01);
+    }
   }
 }
 

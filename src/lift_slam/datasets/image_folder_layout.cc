@@ -25,14 +25,20 @@ std::optional<fs::path> FindInFolders(const fs::path& folder, const fs::path& im
 
 // One time in seconds a line, in the order of the images.
 void AssignTimes(const fs::path& file, ImageList& list) {
-  const std::vector<TableRow> rows = ReadTable(file);
+  const std::vector<TableRow> rows = ReadTable(file, EmptyLines::kRefuseBetweenRows);
   const std::size_t num_images = list.images.size();
-  for (std::size_t i = 0; i < rows.size() && i < num_images; ++i) {
+  if (rows.empty()) throw InputError(fmt::format("{}: holds no time", file.string()));
+  if (rows.size() > num_images) {
+    throw InputError(
+        fmt::format("{} has {} times for {} images; expected one time for each image, in the order "
+                    "of the names",
+                    file.string(), rows.size(), num_images));
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].size() != 1) rows[i].Fail("one time in seconds");
     list.images[i].timestamp_ns = rows[i].SecondsAsNs(0);
   }
-  if (rows.empty()) throw InputError(fmt::format("{}: holds no time", file.string()));
-  if (rows.size() >= num_images) return;
+  if (rows.size() == num_images) return;
   list.images.resize(rows.size());
   list.warnings.push_back(
       fmt::format("{} has {} times for {} images; the {} images without a time are not used",
@@ -59,9 +65,7 @@ ImageList ListImageFolder(const LayoutRequest& request) {
   } else {
     const double rate = NominalRate(request, list.camera ? list.camera : request.given_camera,
                                     kNominalRateHz, "the images have no times.txt", list.warnings);
-    for (ListedImage& image : list.images) {
-      image.timestamp_ns = NominalTimeNs(image.frame_index, rate);
-    }
+    AssignNominalTimes(rate, list.images);
   }
   if (const auto truth = FindInFolders(request.folder, image_folder, "groundtruth.txt")) {
     list.truth = TruthFile{*truth, DetectTruthFormat(*truth)};

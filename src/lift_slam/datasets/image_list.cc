@@ -9,8 +9,24 @@
 
 namespace lift_slam {
 
-std::int64_t NominalTimeNs(std::int64_t frame_index, double frame_rate_hz) {
-  return std::llround(static_cast<double>(frame_index) * 1e9 / frame_rate_hz);
+std::optional<std::int64_t> NominalTimeNs(std::int64_t frame_index, double frame_rate_hz) {
+  constexpr double kEndNs = 9223372036854775808.0;  // 2^63
+  const double time_ns = static_cast<double>(frame_index) * 1e9 / frame_rate_hz;
+  if (!(time_ns >= -kEndNs && time_ns < kEndNs)) return std::nullopt;
+  return std::llround(time_ns);
+}
+
+void AssignNominalTimes(double frame_rate_hz, std::vector<ListedImage>& images) {
+  for (ListedImage& image : images) {
+    const auto time_ns = NominalTimeNs(image.frame_index, frame_rate_hz);
+    if (!time_ns) {
+      throw InputError(
+          fmt::format("{}: frame {} at {} frames/s has a time beyond 292 years; "
+                      "expected images numbered by frame, or a file with their times",
+                      image.file.string(), image.frame_index, frame_rate_hz));
+    }
+    image.timestamp_ns = *time_ns;
+  }
 }
 
 double NominalRate(const LayoutRequest& request, const std::optional<Camera>& camera,

@@ -54,8 +54,11 @@ ImageList ListTumRgbd(const LayoutRequest& request);
 ImageList ListTumMono(const LayoutRequest& request);
 ImageList ListImageFolder(const LayoutRequest& request);
 
-// frame_index / frame_rate_hz.
-std::int64_t NominalTimeNs(std::int64_t frame_index, double frame_rate_hz);
+// frame_index / frame_rate_hz; nothing when it does not fit.
+std::optional<std::int64_t> NominalTimeNs(std::int64_t frame_index, double frame_rate_hz);
+
+// Gives all images their nominal time. Throws InputError naming the first whose time does not fit.
+void AssignNominalTimes(double frame_rate_hz, std::vector<ListedImage>& images);
 
 // The rate of images without times: the option, else the camera's, else `fallback_hz` with a
 // warning that starts with `what_is_missing`.

@@ -151,7 +151,7 @@ std::unique_ptr<Sequence> OpenImageListSequence(const std::string& source, Seque
   const ImageSize size = FirstImageSize(order.valid);
   info.camera = FinishCamera(request.given_camera ? request.given_camera : list.camera, size,
                              RateOf(order.valid), source, list.calibration_searched, options);
-  info.ground_truth = LoadGroundTruth(list, order.valid, options, info.warnings);
+  info.ground_truth = LoadGroundTruth(list, FramesOf(order.valid), options, info.warnings);
   std::vector<PlannedFrame> frames = Select(order.frames, options, source);
   if (frames.size() == 1) {
     info.warnings.push_back(source + ": there is only one frame, so nothing can be tracked");

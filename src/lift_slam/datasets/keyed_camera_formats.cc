@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include "lift_slam/datasets/camera_formats.h"
+#include "lift_slam/datasets/distortion_keys.h"
+#include "lift_slam/datasets/frame_rate.h"
 #include "lift_slam/util/check.h"
 #include "lift_slam/util/input_error.h"
 
@@ -16,10 +18,19 @@ PinholeIntrinsics MakePinhole(std::span<const double> fx_fy_cx_cy, int width, in
 
 // Values named by single keys; an absent one is zero.
 std::vector<double> ReadNamed(const KeyedFile& file, const std::string& prefix,
-                              std::initializer_list<const char*> names) {
+                              const std::vector<std::string>& names) {
   std::vector<double> values;
-  for (const char* name : names) values.push_back(file.NumberOr(prefix + name, 0.0));
+  for (const std::string& name : names) values.push_back(file.NumberOr(prefix + name, 0.0));
   return values;
+}
+
+// 0 when the file does not say it, or says 0.
+double ReadFrameRate(const KeyedFile& file, const std::string& key) {
+  const double rate_hz = file.NumberOr(key, 0.0);
+  if (rate_hz != 0.0 && !IsFrameRate(rate_hz)) {
+    file.Fail(key, fmt::format("{} to {} frames/s", kMinFrameRateHz, kMaxFrameRateHz));
+  }
+  return rate_hz;
 }
 
 bool AllZero(std::span<const double> values) {
@@ -31,11 +42,17 @@ std::string MatrixKey(const KeyedFile& file, const std::string& key) {
   return file.Has(key + "/data") ? key + "/data" : key;
 }
 
-bool IsFisheye(const KeyedFile& file) {
+bool NamesFisheye(const KeyedFile& file) {
   if (file.WholeNumberOr("fisheye_model", 0) != 0) return true;
   if (!file.Has("distortion_model")) return false;
   const std::string model = file.Text("distortion_model");
-  if (model == "equidistant" || model == "fisheye") return true;
+  return model == "equidistant" || model == "fisheye";
+}
+
+bool IsFisheye(const KeyedFile& file) {
+  if (NamesFisheye(file)) return true;
+  if (!file.Has("distortion_model")) return false;
+  const std::string model = file.Text("distortion_model");
   if (model == "plumb_bob" || model == "rational_polynomial" || model == "radtan") return false;
   file.Fail("distortion_model", "plumb_bob, rational_polynomial, equidistant or fisheye");
 }
@@ -43,6 +60,12 @@ bool IsFisheye(const KeyedFile& file) {
 // The parts of a rig calibration that Kalibr and EuRoC name differently.
 Distortion ReadNamedDistortion(const KeyedFile& file, const std::string& model_key,
                                const std::string& coefficients_key) {
+  const std::string given = MatrixKey(file, coefficients_key);
+  if (!file.Has(model_key) && file.Has(given) && !file.AllZero(given)) {
+    file.Fail(given, fmt::format("a key '{}' beside it that names the model: radtan "
+                                 "(radial-tangential), equidistant, fov or none",
+                                 model_key));
+  }
   const std::string model = file.Has(model_key) ? file.Text(model_key) : "none";
   if (model == "none") return NoDistortion{};
   if (model == "radtan" || model == "radial-tangential") {
@@ -66,9 +89,16 @@ Camera ReadRigCamera(const KeyedFile& file, const std::string& prefix,
                                     : std::vector<int>{0, 0};
   Camera camera;
   camera.pinhole = MakePinhole(file.Numbers(prefix + "intrinsics", 4), size[0], size[1]);
+  RefuseOtherDistortionKeys(file, prefix, {coefficients_key, "distortion_model"});
   camera.distortion =
       ReadNamedDistortion(file, prefix + "distortion_model", prefix + coefficients_key);
   return camera;
+}
+
+std::vector<double> ReadOrbSlamCoefficients(const KeyedFile& file, const std::string& prefix,
+                                            const std::vector<std::string>& names) {
+  RefuseOtherOrbSlamCoefficients(file, prefix, names);
+  return ReadNamed(file, prefix, names);
 }
 
 }  // namespace
@@ -111,8 +141,7 @@ Camera ReadOwnCamera(const KeyedFile& file) {
   const std::vector<double> intrinsics = {file.Number("fx"), file.Number("fy"), file.Number("cx"),
                                           file.Number("cy")};
   camera.pinhole = MakePinhole(intrinsics, file.WholeNumber("width"), file.WholeNumber("height"));
-  camera.frame_rate_hz = file.NumberOr("frame_rate_hz", 0.0);
-  if (camera.frame_rate_hz < 0.0) file.Fail("frame_rate_hz", "a rate above zero");
+  camera.frame_rate_hz = ReadFrameRate(file, "frame_rate_hz");
   return camera;
 }
 
@@ -123,8 +152,9 @@ Camera ReadOpenCvCamera(const KeyedFile& file) {
   Camera camera;
   camera.pinhole = MakePinhole(intrinsics, file.WholeNumberOr("image_width", 0),
                                file.WholeNumberOr("image_height", 0));
+  RefuseOtherDistortionKeys(file, "", {"distortion_coefficients", "distortion_model"});
   const std::string key = MatrixKey(file, "distortion_coefficients");
-  if (!file.Has(key)) return camera;
+  if (!file.Has(key) && !NamesFisheye(file)) return camera;
   const std::vector<double> coefficients = file.Numbers(key);
   if (IsFisheye(file)) {
     if (coefficients.size() != 4) file.Fail(key, "4 numbers (fisheye)");
@@ -153,7 +183,7 @@ Camera ReadKalibrCamera(const KeyedFile& file, std::string_view camera_name) {
 
 Camera ReadEurocCamera(const KeyedFile& file) {
   Camera camera = ReadRigCamera(file, "", "distortion_coefficients");
-  camera.frame_rate_hz = file.NumberOr("rate_hz", 0.0);
+  camera.frame_rate_hz = ReadFrameRate(file, "rate_hz");
   return camera;
 }
 
@@ -164,13 +194,14 @@ Camera ReadOrbSlamCamera(const KeyedFile& file) {
                                           file.Number(prefix + "cx"), file.Number(prefix + "cy")};
   camera.pinhole = MakePinhole(intrinsics, file.WholeNumberOr("Camera.width", 0),
                                file.WholeNumberOr("Camera.height", 0));
-  camera.frame_rate_hz = file.NumberOr("Camera.fps", 0.0);
+  camera.frame_rate_hz = ReadFrameRate(file, "Camera.fps");
   const std::string type = file.Has("Camera.type") ? file.Text("Camera.type") : "PinHole";
   if (type == "KannalaBrandt8") {
-    camera.distortion = MakeKannalaBrandt(ReadNamed(file, prefix, {"k1", "k2", "k3", "k4"}));
+    camera.distortion =
+        MakeKannalaBrandt(ReadOrbSlamCoefficients(file, prefix, {"k1", "k2", "k3", "k4"}));
   } else if (type == "PinHole" || type == "Pinhole") {
     camera.distortion =
-        MakeRadialTangential(ReadNamed(file, prefix, {"k1", "k2", "p1", "p2", "k3"}));
+        MakeRadialTangential(ReadOrbSlamCoefficients(file, prefix, {"k1", "k2", "p1", "p2", "k3"}));
   } else if (type != "Rectified") {
     file.Fail("Camera.type", "PinHole, Rectified or KannalaBrandt8");
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -72,6 +73,12 @@ std::vector<int> KeyedFile::WholeNumbers(const std::string& key, std::size_t cou
 }
 
 int KeyedFile::WholeNumber(const std::string& key) const { return WholeNumbers(key, 1).front(); }
+
+bool KeyedFile::AllZero(const std::string& key) const {
+  const std::vector<std::string>& values = At(key).values;
+  return std::all_of(values.begin(), values.end(),
+                     [](const std::string& text) { return ParseDouble(text) == 0.0; });
+}
 
 double KeyedFile::NumberOr(const std::string& key, double fallback) const {
   return Has(key) ? Number(key) : fallback;

@@ -14,7 +14,8 @@ namespace lift_slam {
 class KeyedFile {
  public:
   // Accepts OpenCV's "%YAML:1.0" first line and its matrix tags; JSON is YAML too.
-  // Throws InputError when the file cannot be read, is not valid, or has no keys.
+  // Throws InputError when the file cannot be read, is not valid, has no keys, holds a second
+  // document, or is nested too deeply or too long for a calibration.
   static KeyedFile ReadYaml(const std::filesystem::path& path);
   // Elements and text only, as OpenCV's FileStorage writes; the root element is left out of keys.
   static KeyedFile ReadXml(const std::filesystem::path& path);
@@ -33,6 +34,8 @@ class KeyedFile {
   std::vector<int> WholeNumbers(const std::string& key, std::size_t count) const;
   // The same number of values as asked for, or InputError.
   std::vector<double> Numbers(const std::string& key, std::size_t count) const;
+  // Whether all its values are the number zero; true without values.
+  bool AllZero(const std::string& key) const;
   // The fallback stands for an absent key only.
   double NumberOr(const std::string& key, double fallback) const;
   int WholeNumberOr(const std::string& key, int fallback) const;

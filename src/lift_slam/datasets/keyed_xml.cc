@@ -82,7 +82,8 @@ class XmlFlattener {
 KeyedFile KeyedFile::ReadXml(const std::filesystem::path& path) {
   KeyedFile file;
   file.source_ = path.string();
-  const std::string text = ReadText(path);
+  std::string text = ReadText(path);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   XmlFlattener(text, file).Run();
   return file;
 }

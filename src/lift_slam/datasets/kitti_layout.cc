@@ -38,8 +38,9 @@ std::vector<ListedImage> ListNumbered(const fs::path& folder, std::vector<std::s
           fmt::format("{}: two images have the number {}", folder.string(), images[i].frame_index));
     }
   }
-  const std::int64_t span = images.back().frame_index - images.front().frame_index + 1;
-  const std::int64_t missing = span - static_cast<std::int64_t>(images.size());
+  // Without a sum that the largest numbers would overflow.
+  const std::int64_t steps = static_cast<std::int64_t>(images.size()) - 1;
+  const std::int64_t missing = images.back().frame_index - images.front().frame_index - steps;
   if (missing > 0) {
     warnings.push_back(fmt::format("{}: {} images are missing between {} and {}", folder.string(),
                                    missing, images.front().frame_index, images.back().frame_index));
@@ -70,17 +71,15 @@ void AssignTimes(const std::vector<std::int64_t>& times_ns, const fs::path& time
   list.images = std::move(timed);
 }
 
-void AssignNominalTimes(const LayoutRequest& request, const fs::path& times_file, ImageList& list) {
+void AssumeTimes(const LayoutRequest& request, const fs::path& times_file, ImageList& list) {
   const double rate = NominalRate(request, request.given_camera, kKittiRateHz,
                                   fmt::format("{} is missing", times_file.string()), list.warnings);
-  for (ListedImage& image : list.images) {
-    image.timestamp_ns = NominalTimeNs(image.frame_index, rate);
-  }
+  AssignNominalTimes(rate, list.images);
 }
 
 std::vector<std::int64_t> ReadTimes(const fs::path& file) {
   std::vector<std::int64_t> times_ns;
-  for (const TableRow& row : ReadTable(file)) {
+  for (const TableRow& row : ReadTable(file, EmptyLines::kRefuseBetweenRows)) {
     if (row.size() != 1) row.Fail("one time in seconds");
     times_ns.push_back(row.SecondsAsNs(0));
   }
@@ -89,7 +88,7 @@ std::vector<std::int64_t> ReadTimes(const fs::path& file) {
 
 std::vector<std::int64_t> ReadDates(const fs::path& file) {
   std::vector<std::int64_t> times_ns;
-  for (const TableRow& row : ReadTable(file)) {
+  for (const TableRow& row : ReadTable(file, EmptyLines::kRefuseBetweenRows)) {
     const auto time_ns = row.size() == 2 ? ParseDateAsNs(row[0], row[1]) : std::nullopt;
     if (!time_ns) row.Fail("a date and time such as 2011-09-26 13:02:25.964389445");
     times_ns.push_back(*time_ns);
@@ -138,7 +137,7 @@ ImageList ListKittiOdometry(const LayoutRequest& request) {
   if (fs::exists(times_file)) {
     AssignTimes(ReadTimes(times_file), times_file, list);
   } else {
-    AssignNominalTimes(request, times_file, list);
+    AssumeTimes(request, times_file, list);
   }
   const fs::path calibration = request.folder / "calib.txt";
   list.calibration_searched = fmt::format("{} (line P{}:), camera.yaml beside it",
@@ -164,7 +163,7 @@ ImageList ListKittiRaw(const LayoutRequest& request) {
   if (fs::exists(times_file)) {
     AssignTimes(ReadDates(times_file), times_file, list);
   } else {
-    AssignNominalTimes(request, times_file, list);
+    AssumeTimes(request, times_file, list);
   }
   const std::vector<fs::path> candidates = {request.folder.parent_path() / "calib_cam_to_cam.txt",
                                             request.folder / "calib_cam_to_cam.txt",

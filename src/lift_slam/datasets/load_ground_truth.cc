@@ -14,24 +14,22 @@ namespace {
 }
 
 // KITTI poses take the times of the images they are of; those without an image are left out.
-Trajectory PairByIndex(const TruthFile& file, const Trajectory& rows,
-                       const std::vector<ListedImage>& images, std::vector<std::string>& warnings) {
-  std::map<std::int64_t, std::int64_t> times_ns;
-  for (const ListedImage& image : images) times_ns[image.frame_index] = image.timestamp_ns;
+Trajectory PairByIndex(const TruthFile& file, const Trajectory& rows, const TruthFrames& frames,
+                       std::vector<std::string>& warnings) {
   Trajectory poses;
   for (TrajectoryPose pose : rows) {
-    const auto time = times_ns.find(pose.frame_index);
-    if (time == times_ns.end()) continue;
-    pose.timestamp_ns = time->second;
+    const std::optional<std::int64_t> time_ns = frames.time_ns(pose.frame_index);
+    if (!time_ns) continue;
+    pose.timestamp_ns = *time_ns;
     poses.push_back(pose);
   }
   if (poses.empty()) {
     throw InputError(fmt::format("{}: none of its {} poses is of an image of the sequence",
                                  file.path.string(), rows.size()));
   }
-  if (poses.size() < rows.size() || poses.size() < images.size()) {
+  if (frames.count && (poses.size() < rows.size() || std::ssize(poses) < *frames.count)) {
     warnings.push_back(fmt::format("{} has {} poses for {} images; {} are paired by index",
-                                   file.path.string(), rows.size(), images.size(), poses.size()));
+                                   file.path.string(), rows.size(), *frames.count, poses.size()));
   }
   return poses;
 }
@@ -43,13 +41,13 @@ TrajectoryFormat FormatWithUnit(const TruthFile& file) {
   return count_ns ? TrajectoryFormat::kEurocResult : file.format;
 }
 
-Trajectory ReadPoses(const TruthFile& file, const std::vector<ListedImage>& images,
+Trajectory ReadPoses(const TruthFile& file, const TruthFrames& frames,
                      std::vector<std::string>& warnings) {
   const TrajectoryFile poses = ReadTrajectory(file.path, FormatWithUnit(file), file.nan_rows);
   if (poses.trajectory.empty()) FailWithoutPoses(file.path);
   warnings.insert(warnings.end(), poses.warnings.begin(), poses.warnings.end());
   if (!IsKitti(poses.format)) return poses.trajectory;
-  return PairByIndex(file, poses.trajectory, images, warnings);
+  return PairByIndex(file, poses.trajectory, frames, warnings);
 }
 
 std::optional<TruthFile> ChooseTruthFile(const ImageList& list, const SequenceOptions& options) {
@@ -86,8 +84,19 @@ TrajectoryFormat DetectTruthFormat(const std::filesystem::path& path) {
   return *format;
 }
 
-std::optional<GroundTruth> LoadGroundTruth(const ImageList& list,
-                                           const std::vector<ListedImage>& images,
+TruthFrames FramesOf(const std::vector<ListedImage>& images) {
+  std::map<std::int64_t, std::int64_t> times_ns;
+  for (const ListedImage& image : images) times_ns[image.frame_index] = image.timestamp_ns;
+  const auto time_ns =
+      [times_ns = std::move(times_ns)](std::int64_t frame_index) -> std::optional<std::int64_t> {
+    const auto time = times_ns.find(frame_index);
+    return time == times_ns.end() ? std::nullopt : std::optional(time->second);
+  };
+  return {std::ssize(images), time_ns,
+          TimeRange{images.front().timestamp_ns, images.back().timestamp_ns}};
+}
+
+std::optional<GroundTruth> LoadGroundTruth(const ImageList& list, const TruthFrames& frames,
                                            const SequenceOptions& options,
                                            std::vector<std::string>& warnings) {
   const std::optional<TruthFile> file = ChooseTruthFile(list, options);
@@ -95,13 +104,14 @@ std::optional<GroundTruth> LoadGroundTruth(const ImageList& list,
   GroundTruth truth;
   truth.source = file->path.string();
   truth.by_index = IsKitti(file->format);
-  truth.poses = ReadPoses(*file, images, warnings);
+  truth.poses = ReadPoses(*file, frames, warnings);
   if (const auto truth_from_cam = TruthFromCamera(*file, list, options)) {
     truth.body_poses = truth.poses;
     truth.poses = CameraFromBodyTrajectory(truth.poses, *truth_from_cam);
   }
+  if (!frames.range) return truth;
   const auto apart =
-      DescribeMissingOverlap(truth.poses, images.front().timestamp_ns, images.back().timestamp_ns);
+      DescribeMissingOverlap(truth.poses, frames.range->first_ns, frames.range->last_ns);
   if (!apart) return truth;
   const std::string text =
       fmt::format("{}: shares no time with the images: {}", truth.source, *apart);

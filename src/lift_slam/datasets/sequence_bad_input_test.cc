@@ -260,7 +260,7 @@ TEST(BadTimes, MissingAreNominalWithAWarning) {
 TEST(BadTimes, MalformedNameFileAndLine) {
   const TestFolder folder;
   WriteKitti(folder);
-  folder.Write("times.txt", "0.0\n\nabc\n0.2\n");
+  folder.Write("times.txt", "0.0\n#\nabc\n0.2\n");
   EXPECT_THAT(OpenError(folder.path()),
               AllOf(HasSubstr("times.txt:3: expected a time"), HasSubstr("'abc'")));
   folder.Write("times.txt", "");

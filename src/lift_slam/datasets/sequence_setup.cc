@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "lift_slam/datasets/camera_file.h"
+#include "lift_slam/datasets/frame_rate.h"
 #include "lift_slam/util/input_error.h"
 
 namespace lift_slam {
@@ -17,8 +16,9 @@ void CheckSequenceOptions(const SequenceOptions& options) {
         "LAST (or LAST -1 for the end) and STEP >= 1",
         options.first, options.last, options.step));
   }
-  if (!(options.frame_rate_hz >= 0.0) || !std::isfinite(options.frame_rate_hz)) {
-    throw InputError(fmt::format("the frame rate {} is not valid", options.frame_rate_hz));
+  if (options.frame_rate_hz != 0.0 && !IsFrameRate(options.frame_rate_hz)) {
+    throw InputError(fmt::format("the frame rate is {}, expected {} to {} frames/s",
+                                 options.frame_rate_hz, kMinFrameRateHz, kMaxFrameRateHz));
   }
 }
 

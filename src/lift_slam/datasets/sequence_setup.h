@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -33,11 +34,25 @@ std::optional<Camera> FinishCamera(std::optional<Camera> camera, const ImageSize
                                    double frame_rate_hz, const std::string& source,
                                    const std::string& searched, const SequenceOptions& options);
 
-// Reads the truth that options or the list name, and brings it to the camera that runs. `images`
-// are all those with a valid time. A truth of the sequence's own that shares no time with the
-// images is left out with a warning; one given by options throws InputError.
-std::optional<GroundTruth> LoadGroundTruth(const ImageList& list,
-                                           const std::vector<ListedImage>& images,
+struct TimeRange {
+  std::int64_t first_ns = 0, last_ns = 0;
+};
+
+// The frames that a truth is paired with.
+struct TruthFrames {
+  std::optional<std::int64_t> count;  // nothing: unknown
+  // The time of a frame; nothing when there is none of this index.
+  std::function<std::optional<std::int64_t>(std::int64_t frame_index)> time_ns;
+  std::optional<TimeRange> range;  // from the first to the last; nothing: unknown
+};
+
+// All images of a list that have a valid time.
+TruthFrames FramesOf(const std::vector<ListedImage>& images);
+
+// Reads the truth that options or the list name, and brings it to the camera that runs. A truth of
+// the sequence's own that shares no time with the frames is left out with a warning; one given by
+// options throws InputError. Frames of unknown range are taken to share some.
+std::optional<GroundTruth> LoadGroundTruth(const ImageList& list, const TruthFrames& frames,
                                            const SequenceOptions& options,
                                            std::vector<std::string>& warnings);
 

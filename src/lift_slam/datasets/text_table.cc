@@ -14,7 +14,7 @@ namespace lift_slam {
 namespace {
 
 constexpr std::string_view kSeparators = " \t,";
-constexpr std::int64_t kMaxSizePx = 1'000'000;
+constexpr double kMaxSizePx = 1e6;
 
 std::vector<std::string> SplitFields(std::string_view line) {
   std::vector<std::string> fields;
@@ -25,6 +25,14 @@ std::vector<std::string> SplitFields(std::string_view line) {
     begin = line.find_first_not_of(kSeparators, end);
   }
   return fields;
+}
+
+// ParseIndex with a sign.
+std::optional<std::int64_t> ParseWholeNumber(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  const std::optional<std::int64_t> value = ParseIndex(text);
+  return value && negative ? -*value : value;
 }
 
 }  // namespace
@@ -43,14 +51,16 @@ std::int64_t TableRow::SecondsAsNs(std::size_t column) const {
 }
 
 std::int64_t TableRow::Index(std::size_t column) const {
-  const auto value = column < size() ? ParseNanoseconds(fields_[column]) : std::nullopt;
+  const auto value = column < size() ? ParseWholeNumber(fields_[column]) : std::nullopt;
   if (!value) Fail(fmt::format("a whole number in column {}", column + 1));
   return *value;
 }
 
 int TableRow::SizePx(std::size_t column) const {
-  const std::int64_t size = Index(column);
-  if (size < 1 || size > kMaxSizePx) Fail(fmt::format("an image size in column {}", column + 1));
+  const double size = Number(column);  // KITTI writes 1.392000e+03
+  if (!(size >= 1.0 && size <= kMaxSizePx) || size != std::floor(size)) {
+    Fail(fmt::format("an image size in whole pixels in column {}", column + 1));
+  }
   return static_cast<int>(size);
 }
 
@@ -69,13 +79,18 @@ void TableRow::Fail(std::string_view expected) const {
   throw InputError(fmt::format("{}:{}: expected {}, found '{}'", file_, line_, expected, found));
 }
 
-std::vector<TableRow> ReadTable(const std::filesystem::path& path) {
+std::vector<TableRow> ReadTable(const std::filesystem::path& path, EmptyLines empty_lines) {
   std::vector<TableRow> rows;
-  int number = 0;
+  int number = 0, empty_line = 0;
   for (const std::string& line : ReadLines(path)) {
     ++number;
     std::vector<std::string> fields = SplitFields(line);
+    if (fields.empty() && empty_line == 0) empty_line = number;
     if (fields.empty() || fields.front().front() == '#') continue;
+    if (empty_line != 0 && empty_lines == EmptyLines::kRefuseBetweenRows) {
+      throw InputError(fmt::format("{}:{}: empty line between rows; each line belongs to one image",
+                                   path.string(), empty_line));
+    }
     rows.emplace_back(path, number, std::move(fields));
   }
   return rows;

@@ -24,8 +24,9 @@ class TableRow {
   // These throw InputError when the field is missing or no such value; numbers must be finite.
   double Number(std::size_t column) const;
   std::int64_t SecondsAsNs(std::size_t column) const;
+  // Digits with or without a sign; a fraction or an exponent is refused, not rounded.
   std::int64_t Index(std::size_t column) const;
-  // A width or height, 1 to 1e6 pixels.
+  // A width or height, 1 to 1e6 whole pixels, in any notation.
   int SizePx(std::size_t column) const;
   // Columns first to first + count - 1.
   std::vector<double> Numbers(std::size_t first, std::size_t count) const;
@@ -39,8 +40,14 @@ class TableRow {
   std::vector<std::string> fields_;
 };
 
+enum class EmptyLines {
+  kSkip,
+  kRefuseBetweenRows,  // where a line is an image: one left out would shift all that follow
+};
+
 // All lines but empty ones and comments ('#' first).
-// Throws InputError when the file cannot be read.
-std::vector<TableRow> ReadTable(const std::filesystem::path& path);
+// Throws InputError when the file cannot be read or has an empty line that is refused.
+std::vector<TableRow> ReadTable(const std::filesystem::path& path,
+                                EmptyLines empty_lines = EmptyLines::kSkip);
 
 }  // namespace lift_slam

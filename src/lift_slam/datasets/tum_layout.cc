@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "lift_slam/datasets/camera_file.h"
 #include "lift_slam/datasets/image_files.h"
@@ -59,19 +60,29 @@ void ReadTumRgbdCalibration(const LayoutRequest& request, ImageList& list) {
   }
 }
 
-// Lines "id time exposure" (exposure may be absent), where the id is the number of the image.
-std::vector<ListedImage> ReadTumMonoTimes(const fs::path& times_file, const fs::path& image_folder,
-                                          std::vector<std::string>& warnings) {
+std::map<std::int64_t, fs::path> FilesByNumber(const fs::path& image_folder) {
   std::map<std::int64_t, fs::path> files;
   for (const fs::path& file : ListImages(image_folder)) {
     const auto number = ImageNumber(file);
     if (!number) throw InputError(fmt::format("{}: its name is no number", file.string()));
-    files[*number] = file;
+    if (!files.emplace(*number, file).second) {
+      throw InputError(
+          fmt::format("{}: two images have the number {}", image_folder.string(), *number));
+    }
   }
+  return files;
+}
+
+// Lines "id time exposure" (exposure may be absent), where the id is the number of the image.
+std::vector<ListedImage> ReadTumMonoTimes(const fs::path& times_file, const fs::path& image_folder,
+                                          std::vector<std::string>& warnings) {
+  const std::map<std::int64_t, fs::path> files = FilesByNumber(image_folder);
   const std::vector<TableRow> rows = ReadTable(times_file);
+  std::set<std::int64_t> ids;
   std::vector<ListedImage> images;
   for (const TableRow& row : rows) {
     if (row.size() < 2) row.Fail("id, time in seconds and exposure");
+    if (!ids.insert(row.Index(0)).second) row.Fail("an id that no line before has");
     const auto file = files.find(row.Index(0));
     if (file != files.end()) images.push_back({file->first, row.SecondsAsNs(1), file->second});
   }
@@ -94,8 +105,9 @@ std::vector<ListedImage> NumberTumMono(const LayoutRequest& request, const fs::p
   std::vector<ListedImage> images;
   for (const fs::path& file : ListImages(image_folder)) {
     const auto index = static_cast<std::int64_t>(images.size());
-    images.push_back({index, NominalTimeNs(index, rate), file});
+    images.push_back({index, 0, file});
   }
+  AssignNominalTimes(rate, images);
   return images;
 }
 

@@ -76,7 +76,7 @@ class VideoSequence : public Sequence {
       case TimeSource::kNominalRate:
         break;
     }
-    return NominalTimeNs(frame_index, clock_.rate_hz);
+    return NominalTimeNs(frame_index, clock_.rate_hz).value_or(kNoTimeNs);
   }
 
   void Judge(GrayImage image, SequenceFrame& frame) {
@@ -151,13 +151,19 @@ std::int64_t CountSelected(std::int64_t num_frames, const SequenceOptions& optio
   return last < options.first ? 0 : (last - options.first) / options.step + 1;
 }
 
-// The frames at their nominal times, for pairing them with a truth.
-std::vector<ListedImage> ListFrames(const VideoReader& reader, const VideoClock& clock) {
+// The frames at their nominal times, for pairing them with a truth. A container may claim any
+// number of them, so they are not listed.
+TruthFrames FramesOf(const VideoReader& reader, const VideoClock& clock) {
   const double rate_hz = clock.rate_hz > 0.0 ? clock.rate_hz : kNominalRateHz;
-  std::vector<ListedImage> frames;
-  for (std::int64_t i = 0; i < reader.NumFrames().value_or(1); ++i) {
-    frames.push_back({i, NominalTimeNs(i, rate_hz), {}});
-  }
+  TruthFrames frames;
+  frames.count = reader.NumFrames();
+  frames.time_ns = [rate_hz, count = frames.count](std::int64_t frame_index) {
+    const bool past_end = count && frame_index >= *count;
+    return past_end ? std::nullopt : NominalTimeNs(frame_index, rate_hz);
+  };
+  if (!frames.count) return frames;
+  constexpr std::int64_t kLatestNs = std::numeric_limits<std::int64_t>::max();
+  frames.range = TimeRange{0, NominalTimeNs(*frames.count - 1, rate_hz).value_or(kLatestNs)};
   return frames;
 }
 
@@ -196,8 +202,7 @@ std::unique_ptr<Sequence> OpenVideoSequence(const std::string& file,
     }
   }
   if (options.ground_truth_file) {
-    const ImageList frames{ListFrames(probe, clock), {}, {}, {}, {}, {}};
-    info.ground_truth = LoadGroundTruth(frames, frames.images, options, info.warnings);
+    info.ground_truth = LoadGroundTruth({}, FramesOf(probe, clock), options, info.warnings);
   }
   // Opened anew, as not every container can be wound back.
   return std::make_unique<VideoSequence>(std::move(info), OpenVideoFile(file), clock, size,

@@ -7,6 +7,7 @@
 
 #include "lift_slam/datasets/dataset_test_files.h"
 #include "lift_slam/datasets/prefetching_sequence.h"
+#include "lift_slam/util/file.h"
 
 namespace lift_slam {
 namespace {
@@ -104,6 +105,69 @@ TEST(Video, PairsATruthByIndex) {
   const auto truth = OpenSequence(file.string(), options)->info().ground_truth;
   ASSERT_EQ(truth->poses.size(), 2u);
   EXPECT_EQ(truth->poses[1].timestamp_ns, 50'000'000);
+}
+
+// Images after one another without any container, as cameras stream them.
+std::filesystem::path WriteStream(const TestFolder& folder, int num_frames) {
+  std::string stream;
+  for (int i = 0; i < num_frames; ++i) {
+    std::vector<unsigned char> jpeg;
+    cv::imencode(".jpg", cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(25 * i)), jpeg);
+    stream.append(jpeg.begin(), jpeg.end());
+  }
+  folder.Write("clip.yaml", kVideoCamera);
+  return folder.Write("clip.mjpeg", stream);
+}
+
+std::string KittiPoses(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += fmt::format("1 0 0 {} 0 1 0 0 0 0 1 0\n", i);
+  return text;
+}
+
+TEST(Video, OfUnknownLengthKeepsTheWholeTruth) {
+  const TestFolder folder;
+  const auto file = WriteStream(folder, 6);
+  SequenceOptions options;
+  options.frame_rate_hz = 10.0;
+  options.ground_truth_file = folder.Write("kitti.txt", KittiPoses(6));
+  auto sequence = OpenSequence(file.string(), options);
+  ASSERT_FALSE(sequence->info().num_frames);
+  EXPECT_EQ(sequence->info().ground_truth->poses.size(), 6u);
+  EXPECT_EQ(sequence->info().ground_truth->poses.at(5).timestamp_ns, 500'000'000);
+  EXPECT_THAT(sequence->info().warnings, testing::IsEmpty());
+  EXPECT_EQ(ReadAll(*sequence).size(), 6u);
+
+  options.ground_truth_file = folder.Write("tum.txt", "0.2 0 0 0 0 0 0 1\n0.3 1 0 0 0 0 0 1\n");
+  sequence = OpenSequence(file.string(), options);
+  EXPECT_EQ(sequence->info().ground_truth->poses.size(), 2u);
+}
+
+// Sets the 32-bit number `offset` bytes after a mark in the file.
+void Patch(const std::filesystem::path& file, const char* mark, std::size_t offset,
+           std::uint32_t value) {
+  std::string data = ReadText(file);
+  const std::size_t position = data.find(mark);
+  ASSERT_NE(position, std::string::npos);
+  for (std::size_t i = 0; i < 4; ++i) {
+    data[position + offset + i] = static_cast<char>(value >> (8 * i) & 0xFF);
+  }
+  std::ofstream(file, std::ios::binary) << data;
+}
+
+TEST(Video, AnAbsurdLengthTakesNoMemory) {
+  const TestFolder folder;
+  const auto file = WriteVideo(folder);
+  folder.Write("clip.yaml", kVideoCamera);
+  constexpr std::uint32_t kClaimed = 999'000'000;
+  Patch(file, "avih", 8 + 16, kClaimed);
+  Patch(file, "strh", 8 + 32, kClaimed);
+  SequenceOptions options;
+  options.ground_truth_file = folder.Write("poses.txt", KittiPoses(3));
+  const auto sequence = OpenSequence(file.string(), options);
+  EXPECT_EQ(sequence->info().num_frames, kClaimed);
+  EXPECT_EQ(sequence->info().ground_truth->poses.size(), 3u);
+  EXPECT_EQ(ReadAll(*sequence).size(), 8u);
 }
 
 }  // namespace

@@ -56,10 +56,12 @@ std::vector<Row> SplitRows(const std::filesystem::path& path,
       continue;
     }
     if (row.columns.front().starts_with('#')) continue;
-    // In KITTI files a line is a frame: an empty line would shift all that follow.
-    if (empty_line != 0 && row.columns.size() == 12 && !row.has_comma) {
+    // In KITTI files of poses and of times a line is a frame: an empty line would shift all that
+    // follow.
+    const bool line_is_frame = row.columns.size() == 12 || row.columns.size() == 1;
+    if (empty_line != 0 && line_is_frame && !row.has_comma) {
       row.line = empty_line;
-      row.Fail("empty line between poses; each line of a KITTI file is one frame");
+      row.Fail("empty line between poses or times; each line of a KITTI file is one frame");
     }
     rows.push_back(std::move(row));
   }

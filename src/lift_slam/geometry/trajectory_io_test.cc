@@ -229,6 +229,8 @@ TEST_F(TrajectoryIo, TimestampsFileMustIncrease) {
             (std::vector<std::int64_t>{0, 103735900}));
   EXPECT_THROW(ReadTimestamps(Write("1.0\n1.0\n")), InputError);
   EXPECT_THROW(ReadTimestamps(Write("1.0 2.0\n")), InputError);
+  EXPECT_THROW(ReadTimestamps(Write("1.0\n\n2.0\n")), InputError);
+  EXPECT_EQ(ReadTimestamps(Write("1.0\n2.0\n\n")).size(), 2U);
 }
 
 }  // namespace
