@@ -21,8 +21,21 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxLinks = 40;  // that lead to one another, as Linux
 
+[[noreturn]] void FailReading(const fs::path& path, const std::string& why) {
+  throw InputError(fmt::format("{}: cannot be read: {}", path.string(), why));
+}
+
 [[noreturn]] void FailWriting(const fs::path& path, const char* what, const std::string& why) {
   throw InputError(fmt::format("{}: cannot {}: {}", path.string(), what, why));
+}
+
+// Asked before it is opened: opening a pipe waits for who writes to it.
+void CheckIsFile(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::none) FailReading(path, error.message());
+  if (!fs::exists(status)) throw InputError(fmt::format("{}: no such file", path.string()));
+  if (!fs::is_regular_file(status)) FailReading(path, "it is no file");
 }
 
 // False for a file and for nothing: what may be replaced.
@@ -95,19 +108,15 @@ void WriteInto(const fs::path& file, const fs::path& path,
 }  // namespace
 
 std::string ReadText(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) {
-    throw InputError(fmt::format("{}: no such file", path.string()));
-  }
+  CheckIsFile(path);
   std::ifstream stream(path, std::ios::binary);
+  if (!stream) FailReading(path, std::strerror(errno));
   std::ostringstream text;
-  if (!stream || !std::filesystem::is_regular_file(path) || !(text << stream.rdbuf())) {
-    // An empty file also makes operator<< fail; it is no error.
-    if (stream && std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) == 0) {
-      return {};
-    }
-    throw InputError(fmt::format("{}: cannot be read", path.string()));
-  }
-  return std::move(text).str();
+  if (text << stream.rdbuf()) return std::move(text).str();
+  // An empty file also makes operator<< fail; it is no error.
+  std::error_code ignored;
+  if (fs::file_size(path, ignored) != 0) FailReading(path, std::strerror(errno));
+  return {};
 }
 
 std::vector<std::string> ReadLines(const std::filesystem::path& path) {
@@ -137,9 +146,10 @@ void WriteTextAtomically(const std::filesystem::path& path, const std::string& t
 }
 
 void CreateFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {
+  std::error_code error, ignored;
+  fs::create_directories(folder, error);
+  const fs::file_status status = fs::status(folder, ignored);
+  if (fs::exists(status) && !fs::is_directory(status)) {
     throw InputError(fmt::format("{}: is a file, expected a folder", folder.string()));
   }
   if (error) {

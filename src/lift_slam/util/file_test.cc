@@ -12,6 +12,7 @@
 
 #include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/mapped_file.h"
 
 namespace lift_slam {
 namespace {
@@ -49,6 +50,22 @@ TEST(File, ReadsBackWhatItWroteAndDropsCarriageReturns) {
   WriteTextAtomically(folder / "a", "");
   EXPECT_EQ(ReadText(folder / "a"), "");
   EXPECT_THAT(NamesIn(folder.path()), testing::ElementsAre("a"));
+}
+
+TEST(File, WhatIsNoFileIsNotRead) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder / "pipe", loop = folder / "loop";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink("loop", loop);
+  for (const fs::path& path : {folder.path(), pipe}) {  // a pipe would be waited for
+    EXPECT_EQ(ErrorOf([&] { ReadText(path); }), path.string() + ": cannot be read: it is no file");
+    EXPECT_EQ(ErrorOf([&] { MappedFile file(path); }),
+              path.string() + ": cannot be read: it is no file");
+  }
+  EXPECT_THAT(ErrorOf([&] { ReadText(loop); }), HasSubstr("cannot be read: Too many levels"));
+  EXPECT_THAT(ErrorOf([&] { MappedFile file(loop); }), HasSubstr("cannot be read: Too many"));
+  EXPECT_THAT(ErrorOf([&] { ReadText(folder / std::string(300, 'x')); }),
+              HasSubstr("cannot be read: File name too long"));
 }
 
 TEST(File, UnwritablePlaceIsAnInputError) {
@@ -152,6 +169,8 @@ TEST(File, AFolderInPlaceOfAFileIsAnInputError) {
   folder.Write("c", "text");
   EXPECT_THROW(CreateFolder(folder / "c"), InputError);
   EXPECT_THROW(CreateFolder(folder / "c/d"), InputError);
+  fs::create_symlink("loop", folder / "loop");
+  EXPECT_THROW(CreateFolder(folder / "loop/d"), InputError);
 }
 
 }  // namespace
