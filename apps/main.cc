@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -109,6 +110,9 @@ int Main(int argc, const char* const* argv) {
     return ParseAndRun(app, argc, argv);
   } catch (const InputError& error) {
     PrintError(error.what());
+    return kBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {  // no permission, links in a circle
+    PrintError(fmt::format("{}: {}", error.path1().string(), error.code().message()));
     return kBadInput;
   } catch (const std::bad_alloc&) {
     PrintError("not enough memory for this input.");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/program_for_test.h"
+#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
 
 namespace lift_slam {
@@ -72,6 +73,21 @@ TEST(Program, BadConfigurationNamesFileLineAndKey) {
   std::filesystem::remove(path);
   EXPECT_EQ(RunProgram("config --config /nonexistent.yaml").output,
             "lift_slam: /nonexistent.yaml: no such file\n");
+}
+
+TEST(Program, FilesThatCannotBeReachedAreBadInput) {
+  const TemporaryFolder folder;
+  const std::string loop = (folder / "loop.yaml").string(), name(300, 'x');
+  std::filesystem::create_symlink("loop.yaml", loop);
+  for (const auto& [arguments, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"report " + loop, loop + ": Too many levels of symbolic links"},
+           {"report " + name, name + ": File name too long"},
+           {"config --config " + loop, loop + ": cannot be read: Too many levels of symbolic"}}) {
+    const Outcome outcome = RunProgram(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << arguments;
+    EXPECT_THAT(outcome.output, StartsWith("lift_slam: " + complaint));
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << arguments;
+  }
 }
 
 TEST(Program, FullDiskIsReported) {

@@ -103,6 +103,16 @@ TEST_F(VocabularyCommandTest, UnreadableImageIsLeftOutWithAWarning) {
   EXPECT_THAT(build.output, HasSubstr("warning: " + (images_ / "5.png").string() + ": left out"));
 }
 
+TEST_F(VocabularyCommandTest, LinksInACircleAndToNothingAreLeftOut) {
+  std::filesystem::create_directory_symlink(".", images_ / "again");
+  std::filesystem::create_symlink("nothing.png", images_ / "dangling.png");
+  const Outcome build = Build();
+  EXPECT_EQ(build.exit_code, 0) << build.output;
+  EXPECT_THAT(build.output, HasSubstr("of 12 images"));
+  EXPECT_THAT(build.output, HasSubstr("warning: " + (images_ / "dangling.png").string() +
+                                      ": left out: No such file or directory\n"));
+}
+
 TEST_F(VocabularyCommandTest, BadInputIsOneSentence) {
   ASSERT_EQ(Build().exit_code, 0);
   const std::string vocabulary = vocabulary_.string(), image = (images_ / "0.png").string();

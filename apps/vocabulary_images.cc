@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
+#include <set>
 
 #include "lift_slam/datasets/image_files.h"
 #include "lift_slam/image/resize.h"
@@ -14,15 +16,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void AddFolder(const fs::path& folder, std::vector<fs::path>& images) {
+// Each folder once, by whatever links: they may lead in a circle.
+void AddFolder(const fs::path& folder, std::set<fs::path>& visited, std::vector<fs::path>& images) {
+  if (!visited.insert(fs::canonical(folder)).second) return;
   std::vector<fs::path> files, folders;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with('.')) continue;
-    if (entry.is_directory()) {
+    std::error_code error;
+    if (entry.is_directory(error)) {
       if (!name.starts_with("depth")) folders.push_back(entry.path());
     } else if (IsImageFile(entry.path())) {
-      files.push_back(entry.path());
+      if (entry.is_regular_file(error)) {
+        files.push_back(entry.path());
+      } else {
+        std::cerr << fmt::format("warning: {}: left out: {}\n", entry.path().string(),
+                                 error ? error.message() : "is no file");
+      }
     }
   }
   const auto by_name = [](const fs::path& a, const fs::path& b) {
@@ -31,17 +41,18 @@ void AddFolder(const fs::path& folder, std::vector<fs::path>& images) {
   std::sort(files.begin(), files.end(), by_name);
   std::sort(folders.begin(), folders.end(), by_name);
   images.insert(images.end(), files.begin(), files.end());
-  for (const fs::path& below : folders) AddFolder(below, images);
+  for (const fs::path& below : folders) AddFolder(below, visited, images);
 }
 
 std::vector<fs::path> ImagesOf(const fs::path& source) {
   std::vector<fs::path> images;
   if (fs::is_directory(source)) {
-    AddFolder(source, images);
+    std::set<fs::path> visited;
+    AddFolder(source, visited, images);
     if (images.empty()) throw InputError(source.string() + ": holds no images");
   } else if (!fs::exists(source)) {
     throw InputError(source.string() + ": no such file or folder");
-  } else if (!IsImageFile(source)) {
+  } else if (!IsImageFile(source) || !fs::is_regular_file(source)) {
     throw InputError(source.string() + ": is no image, expected one or a folder of them");
   } else {
     images.push_back(source);

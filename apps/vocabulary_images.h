@@ -10,8 +10,8 @@
 namespace lift_slam {
 
 // Every `step`-th image of each source, in natural order: images, or folders with all that lies
-// below them, but for hidden ones and folders named depth*. Throws InputError for what is neither,
-// and when there is no image.
+// below them, but for hidden ones and folders named depth*; links that lead to no file are left out
+// with a warning. Throws InputError for what is neither, and when there is no image.
 std::vector<std::filesystem::path> CollectImages(const std::vector<std::filesystem::path>& sources,
                                                  int step);
 

@@ -33,7 +33,8 @@ std::map<std::uint32_t, std::vector<ColmapKeypoint>> ReadColmapKeypoints(
   const auto refuse = [&](const std::string& why) {
     throw InputError(fmt::format("{}: {}", path.string(), why));
   };
-  if (!std::filesystem::exists(path)) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
     refuse(
         "is missing; training needs COLMAP's database beside the model, for the keypoints' scales");
   }
@@ -47,7 +48,8 @@ std::map<std::uint32_t, std::vector<ColmapKeypoint>> ReadColmapKeypoints(
   }
   const std::unique_ptr<sqlite3_stmt, FinalizeStatement> statement(prepared);
   std::map<std::uint32_t, std::vector<ColmapKeypoint>> keypoints;
-  while (sqlite3_step(prepared) == SQLITE_ROW) {
+  int step = sqlite3_step(prepared);
+  for (; step == SQLITE_ROW; step = sqlite3_step(prepared)) {
     const auto image = static_cast<std::uint32_t>(sqlite3_column_int64(prepared, 0));
     const int rows = sqlite3_column_int(prepared, 1), columns = sqlite3_column_int(prepared, 2);
     if (rows == 0) continue;
@@ -64,6 +66,10 @@ std::map<std::uint32_t, std::vector<ColmapKeypoint>> ReadColmapKeypoints(
     for (std::size_t at = 0; at < values; at += static_cast<std::size_t>(columns)) {
       list.push_back(ToKeypoint(&data[at], columns));
     }
+  }
+  if (step != SQLITE_DONE) {
+    refuse(fmt::format("cannot be read to its end: {}; copy or make it again",
+                       sqlite3_errmsg(opened)));
   }
   if (keypoints.empty()) refuse("holds no keypoints");
   return keypoints;

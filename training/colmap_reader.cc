@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
@@ -41,6 +43,13 @@ class BinaryReader {
     return text;
   }
 
+  void CheckEnd() const {
+    if (at_ == bytes_.size()) return;
+    throw InputError(
+        fmt::format("{}: has {} bytes after its last image; copy or reconstruct it again",
+                    path_.string(), bytes_.size() - at_));
+  }
+
  private:
   std::string bytes_;
   std::filesystem::path path_;
@@ -64,44 +73,82 @@ std::vector<ColmapImage> ReadBinary(const std::filesystem::path& path) {
     }
     images.push_back(std::move(image));
   }
+  reader.CheckEnd();
   return images;
 }
 
 // Two lines an image: id, pose, camera and name; then x, y and the point's id of each keypoint.
-std::vector<ColmapImage> ReadTextual(const std::filesystem::path& path) {
-  std::vector<ColmapImage> images;
-  const std::vector<std::string> lines = ReadLines(path);
-  const auto refuse = [&](std::size_t line, const char* expected) {
-    throw InputError(fmt::format("{}:{}: expected {}", path.string(), line + 1, expected));
-  };
-  std::size_t i = 0;
-  while (i < lines.size()) {
-    if (lines[i].empty() || lines[i][0] == '#') {
-      ++i;
-      continue;
+class TextReader {
+ public:
+  explicit TextReader(const std::filesystem::path& path) : path_(path), lines_(ReadLines(path)) {}
+
+  std::vector<ColmapImage> Read() {
+    CheckLastLineEnds();
+    std::vector<ColmapImage> images;
+    for (; at_ < lines_.size(); ++at_) {
+      if (lines_[at_].starts_with('#')) TakeNumberOfImages();
+      if (lines_[at_].empty() || lines_[at_][0] == '#') continue;
+      images.push_back(TakeHeading());
+      if (++at_ == lines_.size()) Refuse(at_ - 1, "a line of keypoints after this one");
+      images.back().observations = TakeObservations();
     }
+    if (expected_ && *expected_ != images.size()) {
+      throw InputError(
+          fmt::format("{}: has {} images, but {} by its head; copy or reconstruct it again",
+                      path_.string(), images.size(), *expected_));
+    }
+    return images;
+  }
+
+ private:
+  [[noreturn]] void Refuse(std::size_t line, const char* expected) const {
+    throw InputError(fmt::format("{}:{}: expected {}", path_.string(), line + 1, expected));
+  }
+
+  // A number cut short is one all the same.
+  void CheckLastLineEnds() const {
+    if (!lines_.empty() && !ReadText(path_).ends_with('\n')) {
+      Refuse(lines_.size() - 1, "an end of this line (truncated? copy or reconstruct it again)");
+    }
+  }
+
+  void TakeNumberOfImages() {
+    constexpr std::string_view kKey = "Number of images:";
+    const std::size_t found = lines_[at_].find(kKey);
+    if (found == std::string::npos) return;
+    std::istringstream number(lines_[at_].substr(found + kKey.size()));
+    if (std::size_t count = 0; number >> count) expected_ = count;
+  }
+
+  ColmapImage TakeHeading() const {
     ColmapImage image;
-    std::istringstream heading(lines[i]);
+    std::istringstream heading(lines_[at_]);
     double number = 0.0;
     heading >> image.id;
     for (int k = 0; k < 8; ++k) heading >> number;
     if (!(heading >> std::ws) || !std::getline(heading, image.name)) {
-      refuse(i, "image id, 7 numbers of the pose, camera id and file name");
+      Refuse(at_, "image id, 7 numbers of the pose, camera id and file name");
     }
-    if (++i == lines.size()) refuse(i - 1, "a line of keypoints after this one");
-    std::istringstream keypoints(lines[i]);
-    double x = 0.0, y = 0.0;
-    std::int64_t point = 0;
-    std::size_t k = 0;
-    for (; keypoints >> x >> y >> point; ++k) {
-      if (point >= 0) image.observations.push_back({k, static_cast<std::uint64_t>(point)});
-    }
-    if (!keypoints.eof()) refuse(i, "x, y and point id of each keypoint");
-    ++i;
-    images.push_back(std::move(image));
+    return image;
   }
-  return images;
-}
+
+  std::vector<ColmapObservation> TakeObservations() const {
+    std::vector<ColmapObservation> observations;
+    std::istringstream keypoints(lines_[at_]);
+    for (std::size_t k = 0; !(keypoints >> std::ws).eof(); ++k) {
+      double x = 0.0, y = 0.0;
+      std::int64_t point = 0;
+      if (!(keypoints >> x >> y >> point)) Refuse(at_, "x, y and point id of each keypoint");
+      if (point >= 0) observations.push_back({k, static_cast<std::uint64_t>(point)});
+    }
+    return observations;
+  }
+
+  std::filesystem::path path_;
+  std::vector<std::string> lines_;
+  std::size_t at_ = 0;
+  std::optional<std::size_t> expected_;  // images, by the comments at the begin
+};
 
 }  // namespace
 
@@ -110,7 +157,7 @@ std::vector<ColmapImage> ReadColmapImages(const std::filesystem::path& model) {
   if (std::filesystem::exists(model / "images.bin")) {
     images = ReadBinary(model / "images.bin");
   } else if (std::filesystem::exists(model / "images.txt")) {
-    images = ReadTextual(model / "images.txt");
+    images = TextReader(model / "images.txt").Read();
   } else {
     throw InputError(
         fmt::format("{}: holds neither images.bin nor images.txt; expected the folder "

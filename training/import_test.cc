@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#if __has_include(<sqlite3.h>)
+#include <sqlite3.h>
+#endif
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "lift_slam/testing/temporary_folder.h"
+#include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/colmap_reader.h"
 #include "training/photograph_import.h"
@@ -209,6 +213,53 @@ TEST(ColmapReader, RefusesWhatIsDamaged) {
   folder.Write("database.db", "no database");
   EXPECT_NE(ErrorOf([&] { ReadColmapKeypoints(folder / "database.db"); }), "");
 }
+
+TEST(ColmapReader, RefusesWhatIsCutOrLongerThanItSays) {
+  const TemporaryFolder folder;
+  const std::string head = "# Number of images: 1, mean observations per image: 2\n";
+  const std::string image = "7 1 0 0 0 0 0 0 1 a.png\n";
+  const auto error_of = [&](const std::string& text) {
+    folder.Write("text/images.txt", text);
+    return ErrorOf([&] { ReadColmapImages(folder / "text"); });
+  };
+  EXPECT_EQ(error_of(head + image + "1.5 2.5 -1 1.5 2.5 12 \n"), "");
+  EXPECT_EQ(error_of(head + image + "\n"), "") << "an image without keypoints";
+  EXPECT_THAT(error_of(image + "1.5 2.5 -1 1.5 2.5\n"), HasSubstr("images.txt:2: expected x, y"));
+  EXPECT_THAT(error_of(image + "1.5 2.5 -1 1.5 2.5 1"), HasSubstr("images.txt:2: expected an end"));
+  EXPECT_THAT(error_of(head + image + "\n" + image + "\n"), HasSubstr("2 images, but 1"));
+  EXPECT_THAT(error_of("# Number of images: 3\n" + image + "\n"), HasSubstr("1 images, but 3"));
+  folder.Write("long/images.bin", BinaryImages() + "x");
+  EXPECT_THAT(ErrorOf([&] { ReadColmapImages(folder / "long"); }),
+              HasSubstr("1 bytes after its last image"));
+}
+
+#if __has_include(<sqlite3.h>)
+// COLMAP's table with 200 images of one keypoint each.
+void WriteKeypointDatabase(const std::filesystem::path& path) {
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  std::string commands = "BEGIN; CREATE TABLE keypoints (image_id, rows, cols, data);";
+  for (int i = 0; i < 200; ++i) {
+    commands += fmt::format("INSERT INTO keypoints VALUES ({}, 1, 4, x'{:032x}');", i, 0);
+  }
+  EXPECT_EQ(sqlite3_exec(database, (commands + "COMMIT;").c_str(), nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(database);
+}
+
+TEST(ColmapReader, RefusesADatabaseWithADamagedPage) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "database.db";
+  WriteKeypointDatabase(path);
+  EXPECT_EQ(ReadColmapKeypoints(path).size(), 200U);
+  std::string bytes = ReadText(path);
+  constexpr std::size_t kPageBytes = 4096;
+  ASSERT_GT(bytes.size(), 3 * kPageBytes);
+  bytes.replace(bytes.size() - kPageBytes, kPageBytes, kPageBytes, '\xEE');
+  WriteTextAtomically(path, bytes);
+  EXPECT_THAT(ErrorOf([&] { ReadColmapKeypoints(path); }), HasSubstr("cannot be read to its end"));
+}
+#endif
 
 }  // namespace
 }  // namespace lift_slam::training

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -40,6 +41,11 @@ void KeepMemory() {
   mallopt(M_TOP_PAD, 1 << 26);
 }
 
+void PrintError(const std::string& message) {
+  std::cout.flush();
+  std::fputs(fmt::format("lift_slam_train: {}\n", message).c_str(), stderr);
+}
+
 int Main(int argc, char** argv) {
   KeepMemory();
   // libtorch takes AVX2 for the best of every CPU unless told otherwise.
@@ -54,13 +60,15 @@ int Main(int argc, char** argv) {
     }
     return kDone;
   } catch (const InputError& error) {
-    std::cout.flush();
-    std::fputs(fmt::format("lift_slam_train: {}\n", error.what()).c_str(), stderr);
+    PrintError(error.what());
+    return kBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {  // no permission, links in a circle
+    PrintError(fmt::format("{}: {}", error.path1().string(), error.code().message()));
     return kBadInput;
   } catch (const std::bad_alloc&) {
-    std::fputs("lift_slam_train: not enough memory; try a smaller batch\n", stderr);
+    PrintError("not enough memory; try a smaller batch");
   } catch (const std::exception& error) {
-    std::fputs(fmt::format("lift_slam_train: internal error: {}\n", error.what()).c_str(), stderr);
+    PrintError(fmt::format("internal error: {}", error.what()));
   }
   return kInternalError;
 }

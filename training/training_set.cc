@@ -30,9 +30,11 @@ std::vector<ImageOrigin> ReadOrigins(const std::filesystem::path& path) {
   std::vector<ImageOrigin> origins;
   try {
     const nlohmann::json manifest = nlohmann::json::parse(ReadText(path));
-    if (manifest.at("format") != kTrainingSetFormat) {
+    const nlohmann::json& format = manifest.at("format");
+    if (format != kTrainingSetFormat) {
       throw InputError(fmt::format("{}: format is {}, expected '{}'", path.string(),
-                                   manifest.at("format").dump(), kTrainingSetFormat));
+                                   format.is_primitive() ? format.dump() : format.type_name(),
+                                   kTrainingSetFormat));
     }
     for (const nlohmann::json& image : manifest.at("images")) {
       origins.push_back({image.at("name"), image.at("scene"), image.at("source"),
@@ -54,10 +56,7 @@ class ByteReader {
   bool done() const { return bytes_.empty(); }
 
   const std::byte* Take(std::size_t size) {
-    if (size > bytes_.size()) {
-      throw InputError(fmt::format(
-          "{}: ends in the middle of an image; prepare the training set again", path_.string()));
-    }
+    if (size > bytes_.size()) Refuse("ends in the middle of an image");
     const std::byte* taken = bytes_.data();
     bytes_ = bytes_.subspan(size);
     return taken;
@@ -67,6 +66,10 @@ class ByteReader {
     std::uint32_t number = 0;
     std::memcpy(&number, Take(sizeof number), sizeof number);
     return static_cast<int>(std::min(number, std::uint32_t{1} << 20));
+  }
+
+  [[noreturn]] void Refuse(const char* what) const {
+    throw InputError(fmt::format("{}: {}; prepare the training set again", path_.string(), what));
   }
 
  private:
@@ -79,16 +82,26 @@ ImagePyramid TakePyramid(ByteReader& reader) {
   for (cv::Size& size : sizes) {
     size.width = reader.Number();
     size.height = reader.Number();
+    if (size.empty()) reader.Refuse("has an image without width or height");
   }
   ImagePyramid pyramid;
   for (const cv::Size& size : sizes) {
-    const std::byte* pixels = reader.Take(static_cast<std::size_t>(size.area()));
+    const std::byte* pixels =
+        reader.Take(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
     // OpenCV has no read-only matrices; nobody writes to a GrayImage.
     cv::Mat mat(size, CV_8UC1, const_cast<std::byte*>(pixels));
     pyramid.push_back({GrayImage(mat), static_cast<double>(sizes[0].width) / size.width,
                        static_cast<double>(sizes[0].height) / size.height});
   }
   return pyramid;
+}
+
+// Up to the outer edges of its pixels, and a little for rounding.
+bool LiesIn(const GrayImage& image, const View& view) {
+  const auto within = [](float value, int size) {
+    return value >= -1.0F && value <= static_cast<float>(size);  // false for no number
+  };
+  return within(view.x, image.width()) && within(view.y, image.height());
 }
 
 }  // namespace
@@ -140,6 +153,9 @@ void TrainingSet::Check() const {
     for (const View& view : views) {
       if (view.image >= pyramids_.size() || !(view.sigma > 0.0F) || !(view.sigma < 1e4F)) {
         refuse("a view is of an image that is not there, or has no scale");
+      }
+      if (!LiesIn(pyramids_[view.image].front().image, view)) {
+        refuse(fmt::format("a view lies outside its image, at {}, {}", view.x, view.y));
       }
     }
   }

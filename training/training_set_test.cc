@@ -3,11 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <opencv2/core.hpp>
 
 #include "lift_slam/features/lift/lift_weights_topology.h"
 #include "lift_slam/features/lift/patch_cutter.h"
 #include "lift_slam/testing/temporary_folder.h"
+#include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/patch_sampler.h"
 #include "training/training_set_writer.h"
@@ -84,6 +88,45 @@ TEST(TrainingSet, RefusesWhatIsMissingOrDamaged) {
   WriteSet(folder.path());
   std::filesystem::remove(folder / "manifest.json");
   EXPECT_THAT(ErrorOf(folder.path()), HasSubstr("manifest.json"));
+}
+
+// Replaces the bytes at `at` by those of a value.
+template <class T>
+void Overwrite(const std::filesystem::path& path, std::size_t at, const T& value) {
+  std::string bytes = ReadText(path);
+  std::memcpy(&bytes[at], &value, sizeof value);
+  WriteTextAtomically(path, bytes);
+}
+
+TEST(TrainingSet, RefusesImagesOfImpossibleSize) {
+  const TemporaryFolder folder;
+  for (const std::uint32_t side : {65536U, 1U << 31, 0U}) {  // the product of ints may be 0
+    WriteSet(folder.path());
+    Overwrite(folder / "images.bin", 4, std::array{side, side});
+    EXPECT_THAT(ErrorOf(folder.path()), HasSubstr(side == 0 ? "without width or height"
+                                                            : "ends in the middle of an image"));
+  }
+}
+
+TEST(TrainingSet, RefusesViewsOutsideTheirImage) {
+  const TemporaryFolder folder;
+  for (const float value : {std::nanf(""), -5.0F, 350.0F, 1e30F}) {
+    for (const std::size_t at : {4U, 8U}) {  // x and y
+      WriteSet(folder.path());
+      Overwrite(folder / "views.bin", at, value);
+      EXPECT_THAT(ErrorOf(folder.path()), HasSubstr("lies outside its image")) << value;
+    }
+  }
+}
+
+TEST(TrainingSet, RefusesAnotherFormat) {
+  const TemporaryFolder folder;
+  WriteSet(folder.path());
+  folder.Write("manifest.json", R"({"format": "other"})");
+  EXPECT_THAT(ErrorOf(folder.path()), HasSubstr("format is \"other\", expected"));
+  folder.Write("manifest.json",
+               "{\"format\":" + std::string(1'000'000, '[') + std::string(1'000'000, ']') + "}");
+  EXPECT_THAT(ErrorOf(folder.path()), HasSubstr("format is array, expected"));
 }
 
 TEST(TrainingSetWriter, RefusesASetWithoutPoints) {

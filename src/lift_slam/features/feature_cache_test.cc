@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
+#include <thread>
 
 #include "lift_slam/util/input_error.h"
 
@@ -120,6 +121,20 @@ TEST_F(FeatureCacheTest, FeaturesThatCannotBeKeptAreGivenAllTheSame) {
   std::ofstream(folder_) << "a file where the folder was";
   EXPECT_EQ(Extract(4).keypoints.size(), 4U);
   EXPECT_NE(cache_->statistics().write_error.find(folder_.string()), std::string::npos);
+}
+
+TEST_F(FeatureCacheTest, SeveralKeepTheSameFeaturesAtOnce) {
+  std::vector<std::thread> threads;
+  std::vector<FeatureCache> caches(4, FeatureCache(folder_));  // as of one process each
+  const FeatureSet features = Extract(4);
+  for (FeatureCache& cache : caches) {
+    threads.emplace_back([&] {
+      for (int i = 0; i < 100; ++i) cache.Keep("0123", features);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const FeatureCache& cache : caches) EXPECT_EQ(cache.statistics().write_error, "");
+  EXPECT_TRUE(caches[0].Find("0123", features.descriptors.kind()).has_value());
 }
 
 TEST_F(FeatureCacheTest, AFolderThatCannotBeMadeIsRefused) {

@@ -17,6 +17,8 @@ bool IsSupportedDepth(int depth) {
 
 std::optional<std::vector<std::uint8_t>> ReadBytes(const std::filesystem::path& path) {
   std::error_code error;
+  // Opening a pipe would wait for who writes to it.
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   std::ifstream stream(path, std::ios::binary);
   if (error || !stream) return std::nullopt;

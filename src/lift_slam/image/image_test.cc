@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <fstream>
@@ -135,6 +136,9 @@ TEST_F(ReadGrayImageTest, SaysWhyItRefuses) {
   EXPECT_FALSE(ReadGrayImage(folder_ / "none.png", &why_));
   EXPECT_THAT(why_, HasSubstr("none.png: no such file"));
   EXPECT_FALSE(ReadGrayImage(folder_, &why_));
+  EXPECT_THAT(why_, HasSubstr("cannot be read"));
+  ASSERT_EQ(mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
+  EXPECT_FALSE(ReadGrayImage(folder_ / "pipe.png", &why_)) << "and does not wait for it";
   EXPECT_THAT(why_, HasSubstr("cannot be read"));
   EXPECT_FALSE(ReadShare({}, 1.0));
   EXPECT_THAT(why_, HasSubstr("is empty"));

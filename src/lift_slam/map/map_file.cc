@@ -10,9 +10,11 @@ namespace {
 
 // Bounds the memory that writing and reading need besides the map.
 constexpr std::size_t kPointsPerRecord = 256;
+// Points made with a keyframe are of its features, of which options allow fewer.
+constexpr std::uint64_t kMaxPointsPerKeyFrame = 1U << 17;
 
 struct MapHead {
-  std::size_t num_keyframes = 0, num_point_records = 0;
+  std::size_t num_keyframes = 0, num_point_records = 0, num_point_ids = 0;
 };
 
 std::size_t NumRecords(std::size_t num_points) {
@@ -40,22 +42,7 @@ RecordBytes MapHeadRecord(const MapToStore& stored) {
   return record;
 }
 
-MapHead TakeMapHead(MapRecordReader& reader, Map::Contents& contents, StoredMap& stored) {
-  MapHead head;
-  const auto num_keyframe_ids = reader.Take<std::uint64_t>();
-  const auto num_point_ids = reader.Take<std::uint64_t>();
-  head.num_keyframes = reader.Take<std::uint64_t>();
-  head.num_point_records = reader.Take<std::uint64_t>();
-  constexpr std::uint64_t kMaxIds = 1U << 31;
-  if (num_keyframe_ids > kMaxIds || num_point_ids > kMaxIds) reader.FailDamaged();
-  contents.newest_keyframe = KeyFrameId(reader.Take<std::int32_t>());
-  for (std::size_t i = 0; i < num_keyframe_ids; ++i) {
-    const KeyFrameId standing(reader.Take<std::int32_t>());
-    contents.replaced_by.emplace_back();
-    if (standing.valid()) contents.replaced_by.back() = {standing, TakePose(reader)};
-  }
-  contents.keyframes.resize(num_keyframe_ids);
-  contents.points.resize(num_point_ids);
+void TakeLoops(MapRecordReader& reader, std::size_t num_keyframe_ids, StoredMap& stored) {
   const std::size_t num_loops = reader.TakeCount(2 * sizeof(std::int32_t));
   for (std::size_t i = 0; i < num_loops; ++i) {
     const KeyFrameId query(reader.Take<std::int32_t>());
@@ -65,6 +52,27 @@ MapHead TakeMapHead(MapRecordReader& reader, Map::Contents& contents, StoredMap&
     }
     stored.loops.emplace_back(query, candidate);
   }
+}
+
+MapHead TakeMapHead(MapRecordReader& reader, Map::Contents& contents, StoredMap& stored) {
+  MapHead head;
+  const auto num_keyframe_ids = reader.Take<std::uint64_t>();
+  head.num_point_ids = reader.Take<std::uint64_t>();
+  head.num_keyframes = reader.Take<std::uint64_t>();
+  head.num_point_records = reader.Take<std::uint64_t>();
+  constexpr std::uint64_t kMaxIds = 1U << 31;
+  if (num_keyframe_ids > kMaxIds || head.num_point_ids > kMaxIds ||
+      head.num_point_ids > num_keyframe_ids * kMaxPointsPerKeyFrame) {
+    reader.FailDamaged();
+  }
+  contents.newest_keyframe = KeyFrameId(reader.Take<std::int32_t>());
+  for (std::size_t i = 0; i < num_keyframe_ids; ++i) {
+    const KeyFrameId standing(reader.Take<std::int32_t>());
+    contents.replaced_by.emplace_back();
+    if (standing.valid()) contents.replaced_by.back() = {standing, TakePose(reader)};
+  }
+  contents.keyframes.resize(num_keyframe_ids);
+  TakeLoops(reader, num_keyframe_ids, stored);
   return head;
 }
 
@@ -90,12 +98,15 @@ StoredMap ReadMap(MapRecordReader& reader, const std::shared_ptr<const ViewModel
     reader.Expect(MapRecord::kKeyFrame);
     auto keyframe = TakeKeyFrame(reader, *view, features);
     if (keyframe->id.index() >= contents.keyframes.size()) reader.FailDamaged();
-    contents.keyframes[keyframe->id.index()] = std::move(keyframe);
+    auto& place = contents.keyframes[keyframe->id.index()];
+    if (place) reader.FailDamaged();
+    place = std::move(keyframe);
   }
   for (std::size_t i = 0; i < head.num_point_records; ++i) {
     reader.Expect(MapRecord::kPoints);
-    TakePoints(reader, features, contents.points, stored.gray_of_point);
+    TakePoints(reader, features, head.num_point_ids, contents.points, stored.gray_of_point);
   }
+  contents.points.resize(head.num_point_ids);
   stored.map = Map::FromContents(view, std::move(contents));
   if (!stored.map || stored.map->FindKeyFrame(stored.map->newest_keyframe()) == nullptr) {
     reader.FailDamaged();

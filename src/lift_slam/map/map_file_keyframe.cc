@@ -51,6 +51,7 @@ Rigid3d TakePose(MapRecordReader& reader) {
   Rigid3d pose;  // not through its constructor, which normalises and so may change the last bit
   for (int i = 0; i < 4; ++i) pose.rotation.coeffs()[i] = reader.Take<double>();
   for (int i = 0; i < 3; ++i) pose.translation[i] = reader.Take<double>();
+  if (!pose.rotation.coeffs().allFinite() || !pose.translation.allFinite()) reader.FailDamaged();
   return pose;
 }
 

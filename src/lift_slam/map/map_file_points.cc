@@ -1,5 +1,7 @@
 #include "lift_slam/map/map_file_points.h"
 
+#include <cmath>
+
 namespace lift_slam {
 namespace {
 
@@ -80,6 +82,10 @@ std::unique_ptr<MapPoint> TakePoint(MapRecordReader& reader, const DescriptorKin
   TakeMatrix(reader, point->normal);
   point->min_distance = reader.Take<double>();
   point->max_distance = reader.Take<double>();
+  if (!point->position.allFinite() || !point->normal.allFinite() ||
+      !std::isfinite(point->min_distance) || !std::isfinite(point->max_distance)) {
+    reader.FailDamaged();
+  }
   point->num_visible = reader.Take<std::int32_t>();
   point->num_found = reader.Take<std::int32_t>();
   gray = reader.Take<std::uint8_t>();
@@ -106,16 +112,19 @@ RecordBytes PointsRecord(std::span<const MapPointId> ids, const MapToStore& stor
   return record;
 }
 
-void TakePoints(MapRecordReader& reader, const DescriptorKind& features,
+void TakePoints(MapRecordReader& reader, const DescriptorKind& features, std::size_t num_ids,
                 std::vector<std::unique_ptr<MapPoint>>& points, std::vector<std::uint8_t>& gray) {
   const std::size_t count = reader.TakeCount(1);
   for (std::size_t i = 0; i < count; ++i) {
     std::uint8_t of_point = kUnknownGray;
     auto point = TakePoint(reader, features, of_point);
-    if (!point->id.valid() || point->id.index() >= points.size()) reader.FailDamaged();
-    if (point->id.index() >= gray.size()) gray.resize(point->id.index() + 1, kUnknownGray);
-    gray[point->id.index()] = of_point;
-    points[point->id.index()] = std::move(point);
+    if (!point->id.valid() || point->id.index() >= num_ids) reader.FailDamaged();
+    const std::size_t at = point->id.index();
+    if (at >= gray.size()) gray.resize(at + 1, kUnknownGray);
+    if (at >= points.size()) points.resize(at + 1);
+    if (points[at]) reader.FailDamaged();
+    gray[at] = of_point;
+    points[at] = std::move(point);
   }
 }
 

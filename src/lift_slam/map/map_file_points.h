@@ -11,8 +11,9 @@ namespace lift_slam {
 
 // Map points with observations, appearance and patch.
 RecordBytes PointsRecord(std::span<const MapPointId> ids, const MapToStore& stored);
-// Puts the points of a record at their ids.
-void TakePoints(MapRecordReader& reader, const DescriptorKind& features,
+// Puts the points of a record at their ids, which are below num_ids and of no point before;
+// `points` grows as far as it must.
+void TakePoints(MapRecordReader& reader, const DescriptorKind& features, std::size_t num_ids,
                 std::vector<std::unique_ptr<MapPoint>>& points, std::vector<std::uint8_t>& gray);
 
 }  // namespace lift_slam

@@ -3,7 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <sstream>
+
 #include "lift_slam/map/map_consistency_for_test.h"
+#include "lift_slam/map/map_file_records.h"
 #include "lift_slam/testing/synthetic_frames.h"
 #include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
@@ -75,6 +81,34 @@ class MapFileTest : public testing::Test {
     const std::string complaint = Complaint([&] { Read(path); });
     EXPECT_TRUE(complaint.empty() || complaint.find(path.string()) != std::string::npos);
     return complaint;
+  }
+
+  using Record = std::pair<MapRecord, std::vector<std::byte>>;
+  // The bytes of a file whose records were changed, with the checksums that belong to them.
+  std::string Forged(const std::function<void(std::vector<Record>&)>& change) const {
+    std::vector<Record> records = Records(ReadText(Write()));
+    change(records);
+    std::ostringstream stream;
+    MapRecordWriter writer(stream);
+    for (const auto& [kind, bytes] : records) {
+      RecordBytes record;
+      record.PutArray(std::span<const std::byte>(bytes));
+      writer.Write(kind, record);
+    }
+    return std::move(stream).str();
+  }
+  static std::vector<Record> Records(const std::string& file) {
+    constexpr std::size_t kHead = 16, kRecordHead = 24, kSizeAt = 8;
+    std::vector<Record> records;
+    for (std::size_t at = kHead; at < file.size();) {
+      std::uint64_t size = 0;
+      std::memcpy(&size, &file[at + kSizeAt], sizeof size);
+      const auto bytes = std::as_bytes(std::span(file)).subspan(at + kRecordHead, size);
+      records.emplace_back(static_cast<MapRecord>(file[at]),
+                           std::vector<std::byte>(bytes.begin(), bytes.end()));
+      at += kRecordHead + size;
+    }
+    return records;
   }
 
   const TemporaryFolder folder_;
@@ -196,6 +230,45 @@ TEST_F(MapFileTest, OtherFeaturesAndOtherCameraAreRefused) {
   view = std::make_shared<ViewModel>(*scene_.view());
   view->levels.num_levels += 1;
   EXPECT_THAT(Complaint([&] { ReadMapFile(path, view, kind()); }), HasSubstr("levels"));
+}
+
+TEST_F(MapFileTest, ValuesThatAreNotFiniteAreRefused) {
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  const auto complaint = [&] { return Complaint([&] { Read(Write()); }); };
+  MapPoint& point = first_.point(MapPointId(30));
+  const MapPoint before = point;
+  point.position.y() = kNoNumber;
+  EXPECT_THAT(complaint(), HasSubstr("contradict"));
+  point = before;
+  point.max_distance = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(complaint(), HasSubstr("contradict"));
+  point = before;
+  EXPECT_EQ(complaint(), "");
+  first_.SetPose(KeyFrameId(1), Rigid3d(Eigen::Quaterniond::Identity(), {0.0, kNoNumber, 0.0}));
+  EXPECT_THAT(complaint(), HasSubstr("contradict"));
+}
+
+TEST_F(MapFileTest, DoubledKeyFramesAndPointsAreRefused) {
+  EXPECT_EQ(ComplaintAbout(Forged([](std::vector<Record>&) {})), "");
+  // The head of the first map: ids of keyframes and points, keyframes, records of points.
+  EXPECT_THAT(ComplaintAbout(Forged([](std::vector<Record>& records) {
+                records[1].second[16] = std::byte{5};  // instead of 4
+                records.insert(records.begin() + 3, records[2]);
+              })),
+              HasSubstr("contradict"));
+  EXPECT_THAT(ComplaintAbout(Forged([](std::vector<Record>& records) {
+                records[1].second[24] = std::byte{4};  // instead of 3
+                const auto points = std::ranges::find(records, MapRecord::kPoints, &Record::first);
+                records.insert(points, Record(*points));
+              })),
+              HasSubstr("contradict"));
+}
+
+TEST_F(MapFileTest, MorePointIdsThanKeyFramesCanHaveMadeAreRefused) {
+  EXPECT_THAT(ComplaintAbout(Forged([](std::vector<Record>& records) {
+                records[1].second[11] = std::byte{0x7F};  // times 2^24
+              })),
+              HasSubstr("contradict"));
 }
 
 TEST_F(MapFileTest, UnwritablePlaceIsRefused) {

@@ -27,6 +27,7 @@ static_assert(std::endian::native == std::endian::little, "numbers in the file a
 constexpr std::size_t kLengthBytes = 8;
 constexpr std::uint64_t kMaxHeaderBytes = 100'000'000;  // as the format's authors' reader
 constexpr std::size_t kHeaderAlignment = 8;
+constexpr int kMaxHeaderDepth = 4;  // the format needs 3: the header, a tensor, its shape
 constexpr const char* kMetadata = "__metadata__";
 constexpr const char* kSha256 = "sha256";
 
@@ -79,7 +80,16 @@ class Reader {
           fmt::format("truncated: {} bytes, shorter than its header of {}", bytes_.size(), length));
     }
     const std::string_view text = std::string_view(bytes_).substr(kLengthBytes, length);
-    header_ = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+    // What works on a JSON value calls itself for each level of it.
+    const auto check_depth = [&](int depth, Json::parse_event_t event, const Json&) {
+      const bool opens =
+          event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+      if (opens && depth >= kMaxHeaderDepth) {
+        Fail("not a safetensors file (its header is nested too deeply)");
+      }
+      return true;
+    };
+    header_ = Json::parse(text, check_depth, /*allow_exceptions=*/false);
     if (!header_.is_object()) Fail("not a safetensors file (its header is not a JSON object)");
     data_ = std::string_view(bytes_).substr(kLengthBytes + length);
   }

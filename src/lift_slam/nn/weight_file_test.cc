@@ -157,6 +157,17 @@ TEST_F(WeightFileTest, BadHeadersAreExplained) {
   }
 }
 
+TEST_F(WeightFileTest, DeepHeadersAreRefused) {
+  for (const std::size_t depth : {std::size_t{4}, std::size_t{1'000'000}}) {
+    WriteRaw("{\"a\":" + std::string(depth, '[') + std::string(depth, ']') + "}", "");
+    EXPECT_THAT(ReadError(), HasSubstr("nested too deeply")) << depth;
+    WriteRaw("{\"a\":" + std::string(depth, '['), "");
+    EXPECT_THAT(ReadError(), HasSubstr("not a safetensors file")) << depth;
+  }
+  WriteRaw(R"({"a":[[[]]]})", "");
+  EXPECT_THAT(ReadError(), HasSubstr("'a' is not described by"));
+}
+
 TEST_F(WeightFileTest, HeaderLongerThanTheFile) {
   WriteTextAtomically(path_, std::string("\x10\0\0\0\0\0\0\0{}", 10));
   EXPECT_THAT(ReadError(), HasSubstr("truncated: 10 bytes"));

@@ -44,20 +44,31 @@ std::string HeaderFault(std::span<const std::byte> bytes, VocabularyHeader& head
   return {};
 }
 
+// So that sums of an offset and a section's size cannot overflow.
+bool OffsetsAreInFile(const VocabularyHeader& header) {
+  return std::max({header.scales_offset, header.children_offset, header.idf_offset,
+                   header.description_offset}) <= header.num_bytes;
+}
+
 // What a checksum cannot tell: whether a writer meant well.
 bool IsConsistent(const VocabularyHeader& header) {
   const std::uint64_t nodes = header.num_nodes;
   const bool is_binary = header.metric == static_cast<std::uint32_t>(DescriptorMetric::kHamming);
   const std::uint64_t center_bytes = is_binary ? header.dimension / 8 : header.dimension;
   const std::uint64_t centers_end = sizeof header + nodes * center_bytes;
-  return header.metric <= 1 && nodes > 0 && header.dimension > 0 && header.dimension % 64 == 0 &&
-         header.center_bytes == center_bytes && header.depth <= 64 &&
+  return OffsetsAreInFile(header) && header.metric <= 1 && nodes > 0 && header.dimension > 0 &&
+         header.dimension % 64 == 0 && header.center_bytes == center_bytes && header.depth <= 64 &&
          centers_end <= (is_binary ? header.children_offset : header.scales_offset) &&
-         (is_binary || header.children_offset >= header.scales_offset + 4 * nodes) &&
+         (is_binary ? header.scales_offset == 0
+                    : header.children_offset >= header.scales_offset + 4 * nodes) &&
          header.idf_offset >= header.children_offset + 4 * (nodes + 1) &&
          header.description_offset >= header.idf_offset + 4 * nodes &&
          header.num_bytes >= header.description_offset && header.children_offset % 4 == 0 &&
          header.idf_offset % 4 == 0 && header.scales_offset % 4 == 0;
+}
+
+bool AreFinite(std::span<const float> values) {
+  return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
 }
 
 // Children come after their parent, in order, and are all there: no path is endless.
@@ -128,6 +139,9 @@ struct Vocabulary::File {
     idf = {reinterpret_cast<const float*>(bytes.data() + header.idf_offset), header.num_nodes};
     if (!IsTree(children_begin, header.num_nodes))
       return "is no vocabulary (its nodes are no tree)";
+    if (!AreFinite(idf) || (scales != nullptr && !AreFinite({scales, header.num_nodes}))) {
+      return "is no vocabulary (a weight or scale of it is not finite)";
+    }
     return {};
   }
 

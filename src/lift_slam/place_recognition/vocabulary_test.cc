@@ -3,12 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <functional>
+#include <limits>
+#include <span>
 
 #include "lift_slam/place_recognition/places_for_test.h"
+#include "lift_slam/place_recognition/vocabulary_layout.h"
 #include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/check.h"
+#include "lift_slam/util/checksum64.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 
@@ -36,6 +43,21 @@ class VocabularyTest : public testing::TestWithParam<DescriptorKind> {
       return error.what();
     }
     return "";
+  }
+
+  // Rewrites the vocabulary with this changed, and the checksum that belongs to it.
+  void Forge(const std::function<void(VocabularyHeader&, std::string&)>& change) const {
+    WriteVocabulary(tree_, path_);
+    std::string bytes = ReadText(path_);
+    VocabularyHeader header;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    change(header, bytes);
+    const auto sections = std::as_bytes(std::span(bytes)).subspan(sizeof header);
+    const auto begin = std::as_bytes(std::span(&header, 1));
+    header.checksum =
+        Checksum64(begin.first(offsetof(VocabularyHeader, checksum)), Checksum64(sections));
+    std::memcpy(bytes.data(), &header, sizeof header);
+    WriteTextAtomically(path_, bytes);
   }
 
   // The word by walking through the tree of float centers.
@@ -161,6 +183,33 @@ TEST_P(VocabularyTest, ForeignTruncatedAndDamagedFilesAreRefused) {
   }
   std::filesystem::remove(path_);
   EXPECT_THAT(Refusal(), HasSubstr("no such file"));
+}
+
+TEST_P(VocabularyTest, SectionsOutsideTheFileAreRefusedWhateverTheChecksum) {
+  for (const auto offset : {&VocabularyHeader::scales_offset, &VocabularyHeader::children_offset,
+                            &VocabularyHeader::idf_offset, &VocabularyHeader::description_offset}) {
+    for (const std::uint64_t value : {~std::uint64_t{7}, std::uint64_t{1} << 40}) {
+      Forge([&](VocabularyHeader& header, std::string&) { header.*offset = value; });
+      EXPECT_THAT(Refusal(), HasSubstr("its sections overlap")) << value;
+    }
+  }
+  if (GetParam().metric != DescriptorMetric::kHamming) return;
+  Forge([](VocabularyHeader& header, std::string&) { header.scales_offset = sizeof header; });
+  EXPECT_THAT(Refusal(), HasSubstr("its sections overlap"));
+}
+
+TEST_P(VocabularyTest, WeightsAndScalesThatAreNotFiniteAreRefused) {
+  constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
+  Forge([](VocabularyHeader&, std::string&) {});
+  EXPECT_EQ(Refusal(), "");
+  for (const auto offset : {&VocabularyHeader::idf_offset, &VocabularyHeader::scales_offset}) {
+    Forge([&](VocabularyHeader& header, std::string& bytes) {
+      if (header.*offset > 0) std::memcpy(&bytes[header.*offset + 4], &kNoNumber, 4);
+    });
+    const bool has_none = offset == &VocabularyHeader::scales_offset &&
+                          GetParam().metric == DescriptorMetric::kHamming;
+    EXPECT_THAT(Refusal(), HasSubstr(has_none ? "" : "not finite"));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, VocabularyTest, testing::Values(FloatKind(), BinaryKind()),

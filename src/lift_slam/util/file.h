@@ -13,8 +13,8 @@ namespace lift_slam {
 std::vector<std::string> ReadLines(const std::filesystem::path& path);
 std::string ReadText(const std::filesystem::path& path);
 
-// Writes a file that appears whole or not at all: `write` fills a temporary file beside it, which
-// is then renamed. Throws InputError when the folder is not writable or the disk is full.
+// Writes a file that appears whole or not at all: `write` fills a new file beside it, which takes
+// its place. Links stay, devices are written directly. Throws InputError when it cannot be written.
 void WriteFileAtomically(const std::filesystem::path& path,
                          const std::function<void(std::ostream&)>& write);
 void WriteTextAtomically(const std::filesystem::path& path, const std::string& text);

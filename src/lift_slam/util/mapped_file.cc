@@ -15,7 +15,8 @@
 namespace lift_slam {
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Without O_NONBLOCK opening a pipe waits for who writes to it; files are read as ever.
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) {
     throw InputError(errno == ENOENT ? fmt::format("{}: no such file", path.string())
                                      : fmt::format("{}: cannot be read: {}", path.string(),

@@ -1,13 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <thread>
 
-#include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/blocking_queue.h"
 #include "lift_slam/util/check.h"
-#include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_range.h"
 #include "lift_slam/util/random.h"
@@ -35,46 +32,6 @@ TEST(BlockingQueue, KeepsOrderAcrossThreadsAndDrainsAfterClose) {
   EXPECT_EQ(queue.Pop(), std::nullopt);
   producer.join();
   EXPECT_FALSE(queue.Push(1));
-}
-
-TEST(File, MissingFileIsNamed) {
-  try {
-    ReadLines("/nonexistent/file.txt");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("/nonexistent/file.txt"), std::string::npos);
-  }
-}
-
-TEST(File, ReadsBackWhatItWroteAndDropsCarriageReturns) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "lift_slam_file_test.txt";
-  WriteTextAtomically(path, "a\r\nb\n");
-  EXPECT_EQ(ReadLines(path), (std::vector<std::string>{"a", "b"}));
-  EXPECT_FALSE(std::filesystem::exists(path.string() + ".tmp"));
-  std::filesystem::remove(path);
-}
-
-TEST(File, UnwritableFolderIsAnInputError) {
-  EXPECT_THROW(WriteTextAtomically("/nonexistent/out.txt", "x"), InputError);
-}
-
-TEST(File, FullDiskIsAnInputErrorAndLeavesNoFile) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
-  const auto path = std::filesystem::path(testing::TempDir()) / "lift_slam_full";
-  std::filesystem::remove(path.string() + ".tmp");
-  std::filesystem::create_symlink("/dev/full", path.string() + ".tmp");
-  EXPECT_THROW(WriteTextAtomically(path, std::string(1 << 20, 'x')), InputError);
-  EXPECT_FALSE(std::filesystem::exists(path));
-}
-
-TEST(File, AFolderInPlaceOfAFileIsAnInputError) {
-  const TemporaryFolder folder;
-  CreateFolder(folder / "a/b");
-  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
-  EXPECT_NO_THROW(CreateFolder(folder / "a/b"));
-  folder.Write("c", "text");
-  EXPECT_THROW(CreateFolder(folder / "c"), InputError);
-  EXPECT_THROW(CreateFolder(folder / "c/d"), InputError);
 }
 
 TEST(OptionRange, NamesOptionValueAndRange) {

@@ -24,8 +24,13 @@ struct Handle {
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : path_(path) {
-  if (!std::filesystem::exists(path)) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status)) {
     throw InputError(fmt::format("{}: no such file", path.string()));
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    throw InputError(fmt::format("{}: not an HDF5 file", path.string()));
   }
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are told here, not on stderr
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
