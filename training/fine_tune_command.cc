@@ -66,8 +66,11 @@ void PreparePreset(FineTuneArguments& arguments) {
   }
 }
 
+// Training comes to a median distance of the nearest wrong point of so many margins.
+constexpr double kNearestWrongInMargins = 2.3;
+
 // Gentler than from the beginning: the weights are good already.
-TrainingOptions FineTuningDefaults() {
+TrainingOptions FineTuningDefaults(const LiftWeights& from) {
   constexpr double kLearningRate = 1e-4;
   constexpr int kSteps = 5000;
   TrainingOptions options;
@@ -78,6 +81,10 @@ TrainingOptions FineTuningDefaults() {
   }
   // The first wrong points are easy ones for random weights only: these know the hard ones already.
   options.descriptor.easy_steps = 0;
+  // Finished weights are scaled (CarryOverCalibration, calibrate): with the margin of the beginning
+  // they would learn a larger scale before all else, and worse.
+  if (from.distances)
+    options.descriptor.margin = from.distances->nearest_wrong[2] / kNearestWrongInMargins;
   // The angle between two real views is not known.
   options.orientation.loss = OrientationLoss::kDescriptor;
   return options;
@@ -127,12 +134,12 @@ void FineTune(FineTuneArguments& arguments) {
   if (arguments.data.empty()) {
     throw InputError("fine-tune needs --data SET..., or --preset with --root");
   }
-  TrainingOptions options = FineTuningDefaults();
+  const LiftWeights from = ReadLiftWeights(arguments.from);
+  TrainingOptions options = FineTuningDefaults(from);
   ConfigureOptions({}, arguments.overrides, MakeOptionRoot(options));
   options.data = fmt::format("{}", fmt::join(arguments.data, " "));
   options.validation = fmt::format("{}", fmt::join(arguments.validation, " "));
   options.from = arguments.from;
-  const LiftWeights from = ReadLiftWeights(arguments.from);
   bool is_complete = false;
   const fs::path reached = TrainStages(arguments, options, is_complete);
   if (!is_complete) std::cerr << "Ended early; the same command goes on.\n";

@@ -143,6 +143,8 @@ void Trainer::Run(const std::function<bool(const TrainingProgress&)>& go_on) {
   const double checkpoint_s = 60.0 * options_.run.checkpoint_minutes;
   Clock::time_point saved = Clock::now(), before = Clock::now();
   bool wanted = true;
+  // Weights that were given may be better than all that comes of them.
+  if (state_.step == 0 && !options_.from.empty() && !validation_.empty()) Validate();
   while (wanted && state_.step < schedule().steps) {
     Step(producer.Next());
     const Clock::time_point now = Clock::now();
@@ -201,10 +203,9 @@ void Trainer::Step(const PatchBatch& batch) {
 }
 
 void Trainer::Validate() {
-  LogEntry entry{.step = state_.step,
-                 .hours = state_.seconds / 3600.0,
-                 .loss = loss_count_ > 0 ? loss_sum_ / loss_count_ : 0.0,
-                 .steps_per_s = steps_per_s_};
+  LogEntry entry{
+      .step = state_.step, .hours = state_.seconds / 3600.0, .steps_per_s = steps_per_s_};
+  if (loss_count_ > 0) entry.loss = loss_sum_ / loss_count_;
   loss_sum_ = 0.0;
   loss_count_ = 0;
   double figure = -static_cast<double>(state_.step);  // without validation the latest is the best

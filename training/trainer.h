@@ -27,7 +27,8 @@ struct TrainingProgress {
 //   settings.yaml        all options
 //   checkpoint.pt        network, optimizer and step, to go on from
 //   latest.safetensors   the weights of the checkpoint, with the other two networks as given
-//   best.safetensors     those of the best validation (the latest without validation sets)
+//   best.safetensors     those of the best validation, that of the weights given included (the
+//                        latest without validation sets)
 //   log.csv, curves.html the course of the training
 class Trainer {
  public:

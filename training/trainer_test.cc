@@ -191,6 +191,28 @@ TEST(FineTune, AlsoLeavesWeightsWhenItEndsEarly) {
   // Good weights are shown the hardest wrong points from the first step on.
   EXPECT_THAT(ReadText(folder / "tuned/orientation/settings.yaml"),
               testing::HasSubstr("easy_steps: 0\n"));
+  // The margin goes by the scale of their distances: 8 / 2.3.
+  EXPECT_THAT(ReadText(folder / "tuned/orientation/settings.yaml"),
+              testing::HasSubstr("margin: 3.478"));
+}
+
+TEST(Trainer, KeepsTheWeightsItBeganWithWhenTrainingMakesThemWorse) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  TrainOn(TinyRun(folder, "detector", 1), folder / "first", false);
+  TrainingOptions options = TinyRun(folder, "detector", 4);
+  options.from = (folder / "first/latest.safetensors").string();
+  options.detector.schedule.learning_rate = 1.0;
+  options.detector.schedule.warm_up_steps = 0;
+  TrainOn(options, folder / "run", false);
+  LiftWeights from = ReadLiftWeights(options.from);
+  LiftWeights best = ReadLiftWeights(folder / "run/best.safetensors");
+  EXPECT_EQ(best.name, "detector after 0 steps");
+  const auto expected = Parameters(from), got = Parameters(best);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_TRUE(std::ranges::equal(expected[i].values, got[i].values)) << expected[i].name;
+  }
+  EXPECT_THAT(ReadText(folder / "run/log.csv"), testing::HasSubstr("\n0,0.0000,,,"));
 }
 
 TEST(Trainer, RefusesWhatCannotBe) {

@@ -35,8 +35,8 @@ void TrainingLog::Add(const LogEntry& entry) {
     for (const auto& [name, value] : entry.validation) heading += "," + name;
     lines_.push_back(heading);
   }
-  std::string line = fmt::format("{},{:.4f},{:.5f},{:.2f}", entry.step, entry.hours, entry.loss,
-                                 entry.steps_per_s);
+  std::string line = fmt::format("{},{:.4f},", entry.step, entry.hours);
+  line += entry.loss ? fmt::format("{:.5f},{:.2f}", *entry.loss, entry.steps_per_s) : ",";
   for (const auto& [name, value] : entry.validation) line += fmt::format(",{:.5f}", value);
   lines_.push_back(line);
   std::string text;
@@ -53,7 +53,7 @@ void TrainingLog::Draw() const {
     PlotSeries series;
     for (std::size_t i = 1; i < lines_.size(); ++i) {
       const std::vector<std::string> cells = Cells(lines_[i]);
-      if (cells.size() != names.size()) continue;
+      if (cells.size() != names.size() || cells[column].empty()) continue;
       series.x.push_back(std::atof(cells[0].c_str()));
       series.y.push_back(std::atof(cells[column].c_str()));
     }

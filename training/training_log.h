@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,8 +12,8 @@ namespace lift_slam::training {
 // One line of log.csv.
 struct LogEntry {
   std::int64_t step = 0;
-  double hours = 0.0;  // spent training
-  double loss = 0.0;   // mean since the line before
+  double hours = 0.0;            // spent training
+  std::optional<double> loss{};  // mean since the line before; nothing: no step was made
   double steps_per_s = 0.0;
   std::vector<std::pair<std::string, double>> validation{};  // empty: without validation sets
 };
