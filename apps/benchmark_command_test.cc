@@ -1,4 +1,3 @@
-// Whole benchmarks on small rendered trees of KITTI's and EuRoC's form.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -8,7 +7,7 @@
 #include <sstream>
 #include <thread>
 
-#include "apps/run_test_fixture.h"
+#include "apps/benchmark_test_fixture.h"
 #include "lift_slam/testing/real_data.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/number_text.h"
@@ -19,22 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-class BenchmarkCommand : public RunCommand {
- protected:
-  // `lift_slam benchmark ARGUMENTS` with the smallest settings that still give a map.
-  std::string Arguments(const std::string& what,
-                        const std::string& systems = "default_orb orb_slam") const {
-    return fmt::format("benchmark {} --data {} --output {} --systems {}", what,
-                       (folder_ / "data").string(), output_.string(), systems);
-  }
-  std::set<std::string> Finished() const {
-    std::set<std::string> names;
-    if (!fs::is_directory(output_ / "results")) return names;
-    for (const fs::path& path : FilesIn(output_ / "results")) names.insert(path.filename());
-    return names;
-  }
-};
 
 TEST_F(BenchmarkCommand, RunsKittiAndListsWhatIsMissing) {
   Render(SequenceLayout::kKittiOdometry, 40);
@@ -141,21 +124,6 @@ TEST_F(BenchmarkCommand, ConditionsBecomeRowsAndAChart) {
   EXPECT_THAT(ReadText(output_ / "figures/ate_06.svg"), HasSubstr(">salt-pepper=0.05<"));
 }
 
-TEST_F(BenchmarkCommand, ASuiteTakesOtherSequencesThatAreNamed) {
-  Render(SequenceLayout::kKittiOdometry, 12);
-  const std::string plan = Arguments("plan robustness", "default_orb") + " --runs 1 --sequences ";
-  const Outcome outcome = RunProgram(plan + "00");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("plan        11 runs"));
-  ExpectOneSentence(RunProgram(plan + "garage"),
-                    {"'garage' is neither in the suite 'robustness' nor below"});
-  // Nobody published numbers of this one; what was not run has no coverage either.
-  const Outcome tables = RunProgram("benchmark merge --output " + output_.string());
-  EXPECT_EQ(tables.exit_code, 0) << tables.output;
-  EXPECT_THAT(tables.output, Not(HasSubstr("LIFT-SLAM paper, Table 4")));
-  EXPECT_THAT(tables.output, HasSubstr("ours, ORB features | 0/1 | ? | ? |"));
-}
-
 TEST_F(BenchmarkCommand, TrajectoriesOfOthersJoin) {
   Render(SequenceLayout::kKittiOdometry, 40);
   ASSERT_EQ(RunProgram(Arguments("kitti", "default_orb") + " --runs 1").exit_code, 0);
@@ -192,29 +160,6 @@ TEST_F(BenchmarkCommand, ThresholdsThatVaryAreDrawn) {
   const std::string svg = ReadText(output_ / "figures/thresholds_00_ours_ORB_features.svg");
   EXPECT_THAT(svg, HasSubstr(">high (guided)<"));
   EXPECT_EQ(XmlProblem(svg), "");
-}
-
-TEST_F(BenchmarkCommand, MissingWeightsAreListedWithTheirMaking) {
-  Render(SequenceLayout::kKittiOdometry, 4);
-  const Outcome outcome =
-      RunProgram(Arguments("plan kitti", "default_orb adaptive_tuned_euroc") + " --runs 1");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("the weights weights/lift-euroc.safetensors are not there "
-                                        "(made by lift_slam_train fine-tune"));
-  EXPECT_THAT(outcome.output, HasSubstr("plan        1 runs"));
-}
-
-TEST_F(BenchmarkCommand, ThresholdsArePlanned) {
-  Render(SequenceLayout::kKittiOdometry, 4);
-  fs::rename(folder_ / "data/sequences/00", folder_ / "data/sequences/05");
-  const Outcome outcome =
-      RunProgram(fmt::format("benchmark plan thresholds --data {}/data --output {} --runs 2",
-                             folder_.string(), output_.string()));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("missing     sequence MH_01"));
-  EXPECT_THAT(outcome.output, HasSubstr("plan        8 runs"));
-  const std::string plan = ReadText(output_ / "plan.json");
-  EXPECT_THAT(plan, HasSubstr("LIFT-SLAM, TH_LOW 1, TH_HIGH 1.5"));
 }
 
 TEST_F(BenchmarkCommand, VariantsAreComparedOnWhateverIsThere) {
@@ -267,16 +212,6 @@ TEST_F(BenchmarkCommand, SecondRunFindsFeaturesInTheCacheAndGivesNoTimes) {
   EXPECT_EQ(made, 1);
   // Of the run that made them.
   EXPECT_THAT(ReadText(output_ / "tables.csv"), HasSubstr("\"00\",frame_ms,2,1,"));
-}
-
-TEST_F(BenchmarkCommand, TheShippedAblationChangesOnlySettingsThatExist) {
-  Render(SequenceLayout::kKittiOdometry, 4);
-  const Outcome outcome =
-      RunProgram(fmt::format("benchmark plan ablation --data {}/data --output {} --runs 1",
-                             folder_.string(), output_.string()));
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("plan        12 runs"));
-  EXPECT_THAT(ReadText(output_ / "plan.json"), HasSubstr("slam.lift.precision=int8"));
 }
 
 TEST_F(BenchmarkCommand, MatchingIsCountedOverPairsAndGoesOn) {
@@ -368,36 +303,6 @@ TEST_F(BenchmarkCommand, PairsNeedElevenFrames) {
   ExpectOneSentence(RunProgram(fmt::format("match-sequence {} --features orb --output {}",
                                            sequence.string(), output_.string())),
                     {"has 10 frames", "need 11"});
-}
-
-TEST_F(BenchmarkCommand, SequencesOfOneNameAreToldApart) {
-  const fs::path first = Render(SequenceLayout::kKittiOdometry, 4);
-  for (const char* track : {"oval", "hills"}) {
-    fs::create_directories(folder_ / "tracks" / track / "sequences");
-    fs::copy(first, folder_ / "tracks" / track / "sequences/00", fs::copy_options::recursive);
-  }
-  const Outcome outcome = RunProgram(
-      fmt::format("benchmark plan shared --data {}/tracks --output {} --runs 1 --systems orb_slam",
-                  folder_.string(), output_.string()));
-  EXPECT_THAT(outcome.output, HasSubstr("plan        2 runs"));
-  const std::string plan = ReadText(output_ / "plan.json");
-  EXPECT_THAT(plan, HasSubstr("\"sequence\": \"oval\""));
-  EXPECT_THAT(plan, HasSubstr("\"sequence\": \"hills\""));
-}
-
-TEST_F(BenchmarkCommand, TwoSystemsOfOneTitleAreRefused) {
-  Render(SequenceLayout::kKittiOdometry, 12);
-  ExpectOneSentence(RunProgram(Arguments("shared", "lift_slam.kitti lift_slam.euroc")),
-                    {"lift_slam.euroc.yaml", "have the title 'LIFT-SLAM'", "# title:"});
-}
-
-TEST_F(BenchmarkCommand, BadArgumentsAreExplained) {
-  fs::create_directories(folder_ / "data");
-  ExpectOneSentence(RunProgram(Arguments("kiti")), {"suite 'kiti' is unknown", "robustness"});
-  ExpectOneSentence(RunProgram(Arguments("kitti")), {"nothing to run", "sequence 00"});
-  ExpectOneSentence(RunProgram(Arguments("matching")), {"'default_orb'", "orb, sift and lift"});
-  ExpectOneSentence(RunProgram(Arguments("rendered")), {"lift_slam render makes some"});
-  ExpectOneSentence(RunProgram("benchmark kitti --output " + output_.string()), {"--data"});
 }
 
 }  // namespace

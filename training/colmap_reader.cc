@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -107,7 +108,9 @@ class TextReader {
 
   // A number cut short is one all the same.
   void CheckLastLineEnds() const {
-    if (!lines_.empty() && !ReadText(path_).ends_with('\n')) {
+    std::ifstream stream(path_, std::ios::binary);
+    stream.seekg(-1, std::ios::end);
+    if (!lines_.empty() && stream.get() != '\n') {
       Refuse(lines_.size() - 1, "an end of this line (truncated? copy or reconstruct it again)");
     }
   }

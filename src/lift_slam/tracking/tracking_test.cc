@@ -21,16 +21,23 @@ Rigid3d CameraAt(double x, double z = 0.0, double yaw_rad = 0.0) {
 
 class TrackingTest : public testing::Test {
  protected:
+  // Fills the map with keyframes at x = 0 and here; the last frame was the second of them.
+  Tracker StartedAt(double x, const TrackerOptions& options = {}) {
+    points_ = scene_.FillMap({CameraAt(0.0), CameraAt(x)}, map_);
+    Frame last = scene_.MakeFrame(1, CameraAt(x));
+    last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
+    Tracker tracker(options, MatchingOptions(), 0);
+    tracker.Start(map_, last, std::nullopt);
+    return tracker;
+  }
+
   SyntheticFrames scene_{kPoints, 3.0, 8.0, 21};
   Map map_{scene_.view()};
+  std::vector<MapPointId> points_;
 };
 
 TEST_F(TrackingTest, FollowsAMovingCameraFrameByFrame) {
-  scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
-  Frame last = scene_.MakeFrame(1, CameraAt(0.2));
-  last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
-  Tracker tracker({}, MatchingOptions(), 0);
-  tracker.Start(map_, last, std::nullopt);
+  Tracker tracker = StartedAt(0.2);
   for (int k = 0; k < 10; ++k) {
     const Rigid3d truth = CameraAt(0.22 + 0.02 * k, 0.02 * k, 0.002 * k);
     Frame frame = scene_.MakeFrame(2 + k, truth, 0.3);
@@ -43,11 +50,7 @@ TEST_F(TrackingTest, FollowsAMovingCameraFrameByFrame) {
 }
 
 TEST_F(TrackingTest, AJumpIsBridgedByTheReferenceKeyFrame) {
-  scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
-  Frame last = scene_.MakeFrame(1, CameraAt(0.2));
-  last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
-  Tracker tracker({}, MatchingOptions(), 0);
-  tracker.Start(map_, last, std::nullopt);
+  Tracker tracker = StartedAt(0.2);
   const Rigid3d truth = CameraAt(-0.6, 0.2, 0.25);
   Frame frame = scene_.MakeFrame(2, truth);
   const TrackingResult result = tracker.Track(map_, frame);
@@ -111,11 +114,7 @@ TEST_F(TrackingTest, AFrameThatSeesLittleIsTrackedWhereItIsExpected) {
 }
 
 TEST_F(TrackingTest, AnotherSceneIsRefusedWithAReasonAndLeavesNoMatches) {
-  scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
-  Frame last = scene_.MakeFrame(1, CameraAt(0.2));
-  last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
-  Tracker tracker({}, MatchingOptions(), 0);
-  tracker.Start(map_, last, std::nullopt);
+  Tracker tracker = StartedAt(0.2);
   SyntheticFrames other(kPoints, 3.0, 8.0, 99);
   Frame frame = other.MakeFrame(2, CameraAt(0.2));
   EXPECT_EQ(tracker.Track(map_, frame).refusal, FrameRefusal::kTooFewTracked);
@@ -134,14 +133,10 @@ int SightingsOf(const Map& map) {
 }
 
 TEST_F(TrackingTest, PointsRememberNothingOfARefusedFrame) {
-  const std::vector<MapPointId> points = scene_.FillMap({CameraAt(0.0), CameraAt(0.2)}, map_);
-  Frame last = scene_.MakeFrame(1, CameraAt(0.2));
-  last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
   TrackerOptions options;
   options.min_inliers = kPoints;  // with what is left below no pose is good enough
-  Tracker tracker(options, MatchingOptions(), 0);
-  tracker.Start(map_, last, std::nullopt);
-  for (std::size_t i = 100; i < points.size(); ++i) map_.ErasePoint(points[i]);
+  Tracker tracker = StartedAt(0.2, options);
+  for (std::size_t i = 100; i < points_.size(); ++i) map_.ErasePoint(points_[i]);
   const int before = SightingsOf(map_);
   Frame frame = scene_.MakeFrame(2, CameraAt(0.2));
   const TrackingResult result = tracker.Track(map_, frame);
@@ -151,11 +146,7 @@ TEST_F(TrackingTest, PointsRememberNothingOfARefusedFrame) {
 }
 
 TEST_F(TrackingTest, AfterMissingFramesTheMotionIsThatOfTheTimeSince) {
-  scene_.FillMap({CameraAt(0.0), CameraAt(0.1)}, map_);
-  Frame last = scene_.MakeFrame(1, CameraAt(0.1));
-  last.map_points = map_.keyframe(map_.newest_keyframe()).map_points;
-  Tracker tracker({}, MatchingOptions(), 0);
-  tracker.Start(map_, last, std::nullopt);
+  Tracker tracker = StartedAt(0.1);
   for (const int k : {2, 3, 10, 11}) {
     Frame frame = scene_.MakeFrame(k, CameraAt(0.1 * k), 0.3);
     const TrackingResult result = tracker.Track(map_, frame);
