@@ -18,6 +18,7 @@
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/number_text.h"
+#include "lift_slam/util/shipped_file.h"
 
 namespace lift_slam {
 namespace {
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 struct BenchmarkArguments {
   std::vector<std::string> words;  // SUITE, "plan SUITE", "run-job K", "merge" or "results"
   BenchmarkRequest request;
-  fs::path output, publications = LIFT_SLAM_PUBLICATIONS;
+  fs::path output, publications = ShippedFile("configs/paper_results.yaml");
   fs::path feature_cache;             // empty: none
   std::vector<std::string> external;  // NAME=FOLDER
   std::vector<fs::path> from;         // folders of benchmarks, for "results"
@@ -200,7 +201,7 @@ void AddBenchmarkCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "benchmark", "Systems on the sequences of a suite, several runs each, as tables");
   const auto arguments = std::make_shared<BenchmarkArguments>();
-  arguments->request.variants = LIFT_SLAM_VARIANTS;
+  arguments->request.variants = ShippedFile("configs/ablation.yaml");
   AddOptions(*command, *arguments);
   command->footer(
       "Suites: kitti, euroc, rendered, shared (whatever is there), robustness, thresholds, "

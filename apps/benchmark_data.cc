@@ -13,6 +13,7 @@
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
 #include "lift_slam/util/sha256.h"
+#include "lift_slam/util/shipped_file.h"
 
 namespace lift_slam {
 namespace {
@@ -107,7 +108,7 @@ bool IsSmallText(const fs::path& file) {
 
 fs::path PresetFolder() {
   const char* folder = std::getenv("LIFT_SLAM_SYSTEMS_DIR");
-  return folder != nullptr && *folder != '\0' ? folder : LIFT_SLAM_SYSTEMS;
+  return folder != nullptr && *folder != '\0' ? fs::path(folder) : ShippedFile("configs/systems");
 }
 
 std::vector<std::string> PresetNames(const fs::path& folder) {

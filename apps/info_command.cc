@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "apps/build_info.h"
+#include "lift_slam/util/shipped_file.h"
 #include "lift_slam/util/system_info.h"
 
 namespace lift_slam {
@@ -34,6 +35,7 @@ void PrintInfo() {
       {"threads", std::to_string(NumHardwareThreads())},
       {"memory", fmt::format("{:.1f} GiB", memory_gib)},
       {"program", ProgramPath()},
+      {"shipped files", ShippedFile("weights").parent_path().string()},
       {"working folder", std::filesystem::current_path().string()},
   };
   for (const auto& [name, value] : rows) std::cout << fmt::format("{:<15}{}\n", name, value);

@@ -9,6 +9,7 @@
 
 #include "lift_slam/place_recognition/vocabulary.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/shipped_file.h"
 
 namespace lift_slam {
 namespace {
@@ -27,7 +28,7 @@ std::vector<fs::path> VocabulariesIn(const fs::path& folder) {
 
 fs::path VocabularyFolder() {
   const char* folder = std::getenv("LIFT_SLAM_VOCABULARY_DIR");
-  if (folder == nullptr || *folder == '\0') return LIFT_SLAM_SHIPPED_VOCABULARIES;
+  if (folder == nullptr || *folder == '\0') return ShippedFile("vocabularies");
   if (!fs::is_directory(folder)) {
     throw InputError(
         fmt::format("LIFT_SLAM_VOCABULARY_DIR is '{}', which is not a folder", folder));

@@ -17,7 +17,7 @@ struct VocabularyChoice {
 
 // The file that the options name; else the one made for these descriptors among the shipped
 // (*.vocabulary in the folder of the environment variable LIFT_SLAM_VOCABULARY_DIR, else in
-// vocabularies/ of the source tree). Throws InputError for a file that was named, or a folder given
+// vocabularies/, see ShippedFile). Throws InputError for a file that was named, or a folder given
 // by the variable, and does not fit.
 VocabularyChoice ChooseVocabulary(const LoopClosingOptions& options, const DescriptorKind& kind);
 

@@ -1,5 +1,6 @@
 # lift_slam_add_library(NAME [SOURCES ...] [PUBLIC libs ...] [PRIVATE libs ...])
-#   The library of one folder: target lift_slam_NAME. Without sources it is header-only.
+#   The library of one folder: target lift_slam_NAME, lift_slam::NAME once installed. Without sources it is
+#   header-only.
 # lift_slam_add_test(NAME [SOURCES ...] [LIBRARIES ...])
 #   One test program of one folder: target lift_slam_NAME_test; each case is a ctest test.
 # lift_slam_add_executable(NAME [SOURCES ...] [LIBRARIES ...])
@@ -9,16 +10,20 @@ function(lift_slam_add_library name)
   set(target lift_slam_${name})
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
-    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(${target} PUBLIC
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+    target_compile_features(${target} PUBLIC cxx_std_20)
     target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} lift_slam_options)
     target_link_libraries(${target} PUBLIC Eigen3::Eigen)
     target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16)
     target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
   else()
     add_library(${target} INTERFACE)
-    target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(${target} INTERFACE
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
     target_link_libraries(${target} INTERFACE ${ARG_PUBLIC} Eigen3::Eigen)
   endif()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
 endfunction()
 
 function(lift_slam_add_executable name)

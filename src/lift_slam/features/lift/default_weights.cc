@@ -5,12 +5,14 @@
 #include <cstdlib>
 
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/shipped_file.h"
 
 namespace lift_slam {
 
 std::filesystem::path DefaultLiftWeights() {
   const char* chosen = std::getenv("LIFT_SLAM_WEIGHTS");
-  return chosen != nullptr && *chosen != '\0' ? chosen : LIFT_SLAM_DEFAULT_WEIGHTS;
+  if (chosen != nullptr && *chosen != '\0') return chosen;
+  return ShippedFile("weights/lift-default.safetensors");
 }
 
 LiftWeights ReadLiftWeightsOrDefault(const std::filesystem::path& file) {

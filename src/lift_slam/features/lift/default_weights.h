@@ -7,8 +7,8 @@
 namespace lift_slam {
 
 // The weights that are used when none are named: the file that the environment variable
-// LIFT_SLAM_WEIGHTS names, or else the one that ships, where CMake's LIFT_SLAM_DEFAULT_WEIGHTS says
-// (weights/lift-default.safetensors of the source tree).
+// LIFT_SLAM_WEIGHTS names, or else the one that ships, weights/lift-default.safetensors (see
+// ShippedFile).
 std::filesystem::path DefaultLiftWeights();
 
 // Of a file, or the default ones when `file` is empty. Throws InputError as ReadLiftWeights, and
