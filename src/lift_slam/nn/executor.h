@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,9 @@ enum class Backend {
   kOneDnn,     // as fast as the machine allows
 };
 inline constexpr std::string_view kBackendNames[] = {"reference", "onednn"};
+
+// "oneDNN 2.7.3", the library that is loaded: for keys of kept results.
+std::string NetworkLibraryVersion();
 
 struct ExecutorOptions {
   Backend backend = Backend::kOneDnn;

@@ -1,5 +1,7 @@
 #include "lift_slam/nn/onednn_backend.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <unordered_map>
 
@@ -153,6 +155,11 @@ std::unique_ptr<Executor> MakeOneDnnExecutor(const Network& network, const Shape
                                              std::shared_ptr<WorkerTeam> team) {
   return std::make_unique<OneDnnExecutor>(network, input, options, std::move(precision),
                                           std::move(team));
+}
+
+std::string NetworkLibraryVersion() {
+  const dnnl_version_t* version = dnnl_version();
+  return fmt::format("oneDNN {}.{}.{}", version->major, version->minor, version->patch);
 }
 
 }  // namespace lift_slam::nn

@@ -1,10 +1,14 @@
 #include "lift_slam/slam/feature_options.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/features/orb/orb_extractor.h"
+#include "lift_slam/image/image_threads.h"
+#include "lift_slam/nn/executor.h"
 #include "lift_slam/util/option_root.h"
 #include "lift_slam/util/option_writer.h"
 
@@ -19,7 +23,10 @@ std::string IdentityOf(LiftExtractorOptions options, const LiftExtractor& extrac
   options.low_threshold = defaults.low_threshold;
   options.high_threshold = defaults.high_threshold;
   options.precision = extractor.precision().used;
-  return extractor.descriptor_kind().name + '\n' + OptionsToYaml(MakeOptionRoot(options));
+  // The detector's version: to be counted up when a change of it finds other keypoints.
+  return fmt::format("lift, detector 2, {}, {}\n{}\n{}", ImageLibraryVersion(),
+                     nn::NetworkLibraryVersion(), extractor.descriptor_kind().name,
+                     OptionsToYaml(MakeOptionRoot(options)));
 }
 
 }  // namespace

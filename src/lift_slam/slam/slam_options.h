@@ -58,6 +58,9 @@ struct SlamOptions {
                   "correction of the given calibration, with the final bundle adjustment");
   }
 
+  // Throws InputError naming the option that is out of range, or that another one makes void.
+  void Check() const;
+
   static BundleOptions FinalBundleDefaults();
 };
 

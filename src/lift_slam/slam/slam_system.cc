@@ -17,8 +17,7 @@ SlamSystem::SlamSystem(const Camera& camera, std::shared_ptr<const ViewModel> vi
       view_(std::move(view)),
       options_(options),
       maps_(options, std::move(vocabulary), record_) {
-  options_.matching.Check();
-  options_.tracker.motion_prior.Check();
+  options_.Check();
   BeginInitializing();
 }
 

@@ -17,6 +17,7 @@ namespace lift_slam {
 class SlamSystem {
  public:
   // Without a vocabulary (of the features' kind) neither loops nor lost frames are recognised.
+  // Throws InputError as SlamOptions::Check.
   SlamSystem(const Camera& camera, std::shared_ptr<const ViewModel> view,
              const SlamOptions& options, std::shared_ptr<const Vocabulary> vocabulary = nullptr);
 

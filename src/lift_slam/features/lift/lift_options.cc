@@ -14,9 +14,9 @@ void LiftExtractorOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("upright", upright, "patches are not turned (no orientation network)");
   visitor.Field("sigma_px", sigma_px, "noise of the position of a keypoint of sigma 1");
   visitor.Field("low_threshold", low_threshold,
-                "strict distance of descriptors; 0: as measured with the weights, or 2");
+                "fixed strict distance of descriptors; 0: as measured with the weights, or 2");
   visitor.Field("high_threshold", high_threshold,
-                "loose distance of descriptors; 0: as measured with the weights, or 3");
+                "fixed loose distance of descriptors; 0: as measured with the weights, or 3");
   visitor.Field("num_threads", num_threads, "threads of one image; 0: all");
 }
 

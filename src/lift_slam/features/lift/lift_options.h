@@ -25,8 +25,9 @@ struct LiftExtractorOptions {
   // Standard deviation of the position of a keypoint of sigma 1, pixels; grows with sigma. The
   // scores have about one pixel for a sigma of 2.
   double sigma_px = 0.65;
-  // Distances of descriptors below which two are taken for the same point, strictly and loosely;
-  // 0: from what was measured with the weights, or the paper's of KITTI, 2 and 3.
+  // Distances of descriptors below which two are taken for the same point, strictly and loosely,
+  // where nothing adapts them; 0: from what was measured with the weights, or the paper's of KITTI,
+  // 2 and 3.
   double low_threshold = 0.0;
   double high_threshold = 0.0;
   // Threads, the caller included; 0: all that the machine has. The result does not depend on it.

@@ -68,6 +68,12 @@ bool IsEdge(const Eigen::Matrix3d& hessian, double max_ratio) {
   return !(roundness >= 0.0 && roundness < largest);  // true for NaN too
 }
 
+// A flat area has maxima too, of rounding: its scores, near -1, differ by some 1e-6.
+bool IsRounding(const Eigen::Matrix3d& hessian, double score) {
+  constexpr double kLeastCurvature = 1e-4;
+  return !(-(hessian(0, 0) + hessian(1, 1)) > kLeastCurvature * (1.0 + std::abs(score)));
+}
+
 // From the peak to the extremum of the quadratic function; nothing when it is out of reach.
 std::optional<Eigen::Vector3d> OffsetOfExtremum(const Eigen::Vector3d& gradient,
                                                 const Eigen::Matrix3d& hessian) {
@@ -89,7 +95,7 @@ std::optional<LiftKeypoint> RefinePeak(std::span<const ScoreLevel> levels, const
   const Eigen::Vector3d gradient = scores.Gradient();
   const Eigen::Matrix3d hessian = scores.Hessian();
   if (!gradient.allFinite() || !hessian.allFinite()) return std::nullopt;
-  if (IsEdge(hessian, max_edge_ratio)) return std::nullopt;
+  if (IsRounding(hessian, scores(0, 0, 0)) || IsEdge(hessian, max_edge_ratio)) return std::nullopt;
   const std::optional<Eigen::Vector3d> offset = OffsetOfExtremum(gradient, hessian);
   if (!offset) return std::nullopt;
   const ScaleLevel& level = levels[static_cast<std::size_t>(peak.level)].shape;

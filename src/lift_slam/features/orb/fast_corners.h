@@ -10,6 +10,8 @@ namespace lift_slam {
 
 // A corner on whole pixels of one pyramid level.
 struct Corner {
+  static constexpr int kMaxPosition = 32767;
+
   std::int16_t x = 0, y = 0;
   std::uint8_t score = 0;  // grey levels
 };

@@ -1,5 +1,8 @@
 #include "lift_slam/features/orb/orb_extractor.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -9,6 +12,7 @@
 
 #include "lift_slam/features/orb/corner_orientation.h"
 #include "lift_slam/features/orb/corner_refinement.h"
+#include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_root.h"
 #include "lift_slam/util/option_writer.h"
 
@@ -40,6 +44,10 @@ OrbExtractor::OrbExtractor(const OrbOptions& options) : options_(options) {
 }
 
 FeatureSet OrbExtractor::Extract(const GrayImage& image) {
+  if (std::max(image.width(), image.height()) > Corner::kMaxPosition) {
+    throw InputError(fmt::format("the image has {} x {} pixels; ORB takes up to {} a side",
+                                 image.width(), image.height(), Corner::kMaxPosition));
+  }
   RebuildPyramid(image,
                  {.num_levels = options_.num_levels,
                   .scale_factor = options_.scale_factor,

@@ -15,7 +15,8 @@ namespace lift_slam {
 
 // ORB (Rublee et al., 2011) with corners spread evenly over the image: on each pyramid level FAST
 // corners, their even spread, orientation, descriptor. Features come level by level, in raster
-// order within a level. Any image size is accepted: what is too small to describe gives none.
+// order within a level. Any image size up to 32767 pixels a side is accepted: what
+// is too small to describe gives none.
 class OrbExtractor : public FeatureExtractor {
  public:
   // Throws InputError for options out of range.

@@ -148,6 +148,13 @@ TEST(OrbExtractor, SmallDarkAndChangingImagesGiveSetsWithoutError) {
   }
 }
 
+TEST(OrbExtractor, RefusesImagesTooWideForItsPositions) {
+  const auto extractor = CreateOrbExtractor({});
+  EXPECT_THROW(extractor->Extract(GrayImage(cv::Mat(50, 32768, CV_8UC1, cv::Scalar(0)))),
+               InputError);
+  EXPECT_NO_THROW(extractor->Extract(GrayImage(cv::Mat(50, 32767, CV_8UC1, cv::Scalar(0)))));
+}
+
 TEST(OrbExtractor, RefusesOptionsOutOfRange) {
   EXPECT_THROW(CreateOrbExtractor({.num_levels = 0}), InputError);
   EXPECT_THROW(CreateOrbExtractor({.scale_factor = 1.0}), InputError);
