@@ -149,6 +149,10 @@ void TrainingSet::Check() const {
           first_views_.end()) {
     refuse("points.bin and views.bin do not fit together");
   }
+  const auto image_of = [&](std::uint32_t first_view) { return views_[first_view].image; };
+  if (!std::ranges::is_sorted(first_views_.first(num_points()), {}, image_of)) {
+    refuse("points are not sorted by the image of their first view");
+  }
   for (const std::span<const View> views : {views_, empty_places_}) {
     for (const View& view : views) {
       if (view.image >= pyramids_.size() || !(view.sigma > 0.0F) || !(view.sigma < 1e4F)) {

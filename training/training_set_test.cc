@@ -119,6 +119,14 @@ TEST(TrainingSet, RefusesViewsOutsideTheirImage) {
   }
 }
 
+TEST(TrainingSet, RefusesPointsThatAreNotSortedByImage) {
+  const TemporaryFolder folder;
+  WriteSet(folder.path());
+  Overwrite(folder / "views.bin", 0, std::uint32_t{1});
+  Overwrite(folder / "views.bin", 2 * sizeof(View), std::uint32_t{0});
+  EXPECT_THAT(ErrorOf(folder.path()), HasSubstr("not sorted by the image"));
+}
+
 TEST(TrainingSet, RefusesAnotherFormat) {
   const TemporaryFolder folder;
   WriteSet(folder.path());
@@ -127,6 +135,31 @@ TEST(TrainingSet, RefusesAnotherFormat) {
   folder.Write("manifest.json",
                "{\"format\":" + std::string(1'000'000, '[') + std::string(1'000'000, ']') + "}");
   EXPECT_THAT(ErrorOf(folder.path()), HasSubstr("format is array, expected"));
+}
+
+TEST(TrainingSetWriter, KeepsTheOldSetUntilTheNewOneIsFinished) {
+  const TemporaryFolder folder;
+  WriteSet(folder.path());
+  {
+    TrainingSetWriter given_up(folder.path());
+    given_up.AddImage(TestImage(100, 100, 0), {});
+    EXPECT_EQ(ErrorOf(folder.path()), "");
+  }
+  EXPECT_EQ(TrainingSet(folder.path()).num_images(), 2U);
+  EXPECT_FALSE(std::filesystem::exists(folder / "images.bin.part"));
+  TrainingSetWriter writer(folder.path());
+  const View view{writer.AddImage(TestImage(100, 100, 0), {}), 50.0F, 50.0F, 2.0F};
+  writer.AddPoint({&view, 1});
+  writer.Finish("");
+  EXPECT_EQ(TrainingSet(folder.path()).num_images(), 1U);
+}
+
+TEST(TrainingSetWriter, LeavesAColmapModelAlone) {
+  const TemporaryFolder folder;
+  folder.Write("images.bin", "COLMAP's");
+  folder.Write("points3D.bin", "");
+  EXPECT_THROW(TrainingSetWriter(folder.path()), InputError);
+  EXPECT_EQ(ReadText(folder / "images.bin"), "COLMAP's");
 }
 
 TEST(TrainingSetWriter, RefusesASetWithoutPoints) {
