@@ -84,6 +84,18 @@ TEST(PhotographImport, TakesLicencesFromTheManifest) {
   EXPECT_EQ(set.views(0).size(), 1U);
 }
 
+TEST(PhotographImport, NamesTheFolderWithAndWithoutASlashBehindIt) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "holiday");
+  cv::imwrite(folder / "holiday/a.png", Discs(1));
+  for (const char* input : {"holiday", "holiday/"}) {
+    TrainingSetWriter writer(folder / "set");
+    ImportPhotographs(folder / input, {.num_warps = 0}, kQuiet, writer);
+    writer.Finish("");
+    EXPECT_EQ(TrainingSet(folder / "set").origin(0).source, "holiday") << input;
+  }
+}
+
 TEST(PhotographImport, PartsShareNoImage) {
   int training = 0, validation = 0;
   for (int i = 0; i < 300; ++i) {
@@ -145,6 +157,15 @@ TEST(RenderedImport, RelatesKeypointsByDepthAndPose) {
     const float sign = views[0].image == 0 ? 1.0F : -1.0F;
     EXPECT_NEAR(views[0].x - views[1].x, 20.0F * sign, 0.3F * views[0].sigma + 1.5F);
   }
+}
+
+TEST(RenderedImport, NamesTheFolderWithASlashBehindIt) {
+  const TemporaryFolder folder;
+  WriteRendered(folder, 20);
+  TrainingSetWriter writer(folder / "set");
+  ImportRendered(folder / "r/", {}, {}, kQuiet, writer);
+  writer.Finish("");
+  EXPECT_EQ(TrainingSet(folder / "set").origin(0).name, "r/000000");
 }
 
 TEST(RenderedImport, FindsNothingWherePosesAreWrong) {

@@ -8,6 +8,7 @@
 
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
+#include "training/folder_name.h"
 #include "training/training_set_writer.h"
 
 namespace lift_slam::training {
@@ -107,7 +108,7 @@ bool LiesIn(const GrayImage& image, const View& view) {
 }  // namespace
 
 TrainingSet::TrainingSet(const std::filesystem::path& folder)
-    : folder_(folder), name_(std::filesystem::absolute(folder / ".").parent_path().filename()) {
+    : folder_(folder), name_(FolderName(folder)) {
   if (!std::filesystem::is_directory(folder)) {
     throw InputError(
         fmt::format("{}: there is no such training set ('lift_slam_train prepare' "
