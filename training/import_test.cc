@@ -51,6 +51,26 @@ std::string ErrorOf(const Function& function) {
   return "";
 }
 
+TEST(SiftKeypoints, LieWhereTheBlobsAre) {
+  constexpr double kSigma = 4.0;
+  for (const auto& [x, y] :
+       {std::pair(60.0, 50.0), std::pair(60.3, 48.6), std::pair(55.5, 51.75)}) {
+    cv::Mat image(100, 120, CV_8UC1);
+    for (int row = 0; row < image.rows; ++row) {
+      for (int column = 0; column < image.cols; ++column) {
+        const double squared = (column - x) * (column - x) + (row - y) * (row - y);
+        image.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(
+            std::lround(20 + 200 * std::exp(-squared / (2 * kSigma * kSigma))));
+      }
+    }
+    const std::vector<View> found = DetectSift(GrayImage(image), 2.0, 1);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].x, x, 0.1);
+    EXPECT_NEAR(found[0].y, y, 0.1);
+    EXPECT_NEAR(found[0].sigma, kSigma, 0.6);
+  }
+}
+
 TEST(SiftKeypoints, EmptyPlacesHardlyOverlapKeypoints) {
   const GrayImage image(Discs(1));
   std::vector<View> keypoints = DetectSift(image, 2.0, 20);
