@@ -5,12 +5,14 @@
 #include <sqlite3.h>
 #endif
 
+#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
 #include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/colmap_reader.h"
+#include "training/colmap_run.h"
 #include "training/photograph_import.h"
 #include "training/rendered_import.h"
 #include "training/sift_keypoints.h"
@@ -205,6 +207,26 @@ TEST(RenderedImport, NamesWhatIsMissing) {
   TrainingSetWriter writer(folder / "set");
   EXPECT_THAT(ErrorOf([&] { ImportRendered(folder / "r", {}, {}, kQuiet, writer); }),
               HasSubstr("pairs.txt"));
+}
+
+// Without COLMAP: up to where it would be started.
+TEST(ReconstructSequence, RefusesTheFolderOfAnotherSequenceOrOtherOptions) {
+  const TemporaryFolder folder;
+  WriteRendered(folder, 20);
+  const std::string sequence = (folder / "r/sequences/00").string();
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.path().c_str(), 1);
+  const auto error_of = [&](const std::string& of, const ReconstructionOptions& options) {
+    return ErrorOf([&] { ReconstructSequence(of, folder / "work", options); });
+  };
+  EXPECT_THAT(error_of(sequence, {}), HasSubstr("colmap: cannot be run"));
+  EXPECT_EQ(cv::imread(folder / "work/images/000001.png", cv::IMREAD_GRAYSCALE).rows, 200);
+  EXPECT_THAT(error_of(sequence + "/", {}), HasSubstr("colmap: cannot be run"));
+  EXPECT_THAT(error_of(sequence, {.step = 2}), HasSubstr("another sequence, or one with other"));
+  EXPECT_THAT(error_of(sequence + "/image_0", {}), HasSubstr("another sequence"));
+  std::filesystem::remove(folder / "work/source");
+  EXPECT_THAT(error_of(sequence, {}), HasSubstr("another sequence")) << "unknown whose it is";
+  setenv("PATH", path.c_str(), 1);
 }
 
 template <class T>
