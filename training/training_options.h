@@ -11,6 +11,7 @@ namespace lift_slam::training {
 
 enum class Stage { kDescriptor, kOrientation, kDetector };
 inline constexpr std::string_view kStageNames[] = {"descriptor", "orientation", "detector"};
+Stage StageNamed(const std::string& name);  // throws InputError for another name
 
 // What the three stages have in common.
 struct ScheduleOptions {

@@ -14,6 +14,7 @@
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/patch_sampler.h"
+#include "training/training_log.h"
 #include "training/training_set_writer.h"
 
 namespace lift_slam::training {
@@ -231,6 +232,18 @@ TEST(PatchSampler, RefusesSetsThatCannotServe) {
   EXPECT_THROW(PatchSampler(sets, {.min_sigma = 50.0}, {}, {}, 1), InputError);
   EXPECT_THROW(OpenTrainingSets(""), InputError);
   EXPECT_THROW(OpenTrainingSets(folder.path().string() + "=-1"), InputError);
+}
+
+TEST(TrainingLog, BeginsAnewWithOtherFigures) {
+  const TemporaryFolder folder;
+  TrainingLog(folder.path(), false, 0).Add({.step = 2, .loss = 0.5});
+  TrainingLog log(folder.path(), true, 2);
+  log.Add({.step = 4, .loss = 0.25, .validation = {{"FPR95", 0.1}}});
+  log.Add({.step = 6, .loss = 0.25, .validation = {{"FPR95", 0.2}}});
+  EXPECT_EQ(ReadText(folder / "log.csv"),
+            "step,hours,loss,steps_per_s,FPR95\n4,0.0000,0.25000,0.00,0.10000\n"
+            "6,0.0000,0.25000,0.00,0.20000\n");
+  EXPECT_EQ(ReadText(folder / "log.1.csv"), "step,hours,loss,steps_per_s\n2,0.0000,0.50000,0.00\n");
 }
 
 TEST(ChangeLight, StaysWithinGreyValuesAndKeepsThePatchWithoutChanges) {
