@@ -1,7 +1,6 @@
 #include "training/fine_tune_command.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -15,6 +14,7 @@
 #include "training/colmap_run.h"
 #include "training/train_command.h"
 #include "training/weights_calibration.h"
+#include "training/word_list.h"
 
 namespace lift_slam::training {
 namespace {
@@ -137,8 +137,8 @@ void FineTune(FineTuneArguments& arguments) {
   const LiftWeights from = ReadLiftWeights(arguments.from);
   TrainingOptions options = FineTuningDefaults(from);
   ConfigureOptions({}, arguments.overrides, MakeOptionRoot(options));
-  options.data = fmt::format("{}", fmt::join(arguments.data, " "));
-  options.validation = fmt::format("{}", fmt::join(arguments.validation, " "));
+  options.data = JoinWords(arguments.data);
+  options.validation = JoinWords(arguments.validation);
   options.from = arguments.from;
   bool is_complete = false;
   const fs::path reached = TrainStages(arguments, options, is_complete);

@@ -95,7 +95,8 @@ void RunOptions::Check() const {
 
 void TrainingOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("stage", stage, "descriptor, orientation or detector");
-  visitor.Field("data", data, "training sets, PATH[=SHARE]..., separated by blanks");
+  visitor.Field("data", data,
+                "training sets, PATH[=SHARE]..., separated by blanks; \\ before a blank in a path");
   visitor.Field("validation", validation, "sets of other images; empty: none");
   visitor.Field("from", from, "weights to begin with; empty: random ones");
   visitor.Group("run", run, "the run itself");

@@ -88,7 +88,7 @@ struct RunOptions {
 // Everything about one training run: what settings.yaml holds.
 struct TrainingOptions {
   std::string stage = "descriptor";
-  std::string data;        // training sets: PATH[=SHARE]...
+  std::string data;        // training sets: PATH[=SHARE]... (word_list.h)
   std::string validation;  // of other images; empty: no validation, the last weights are the best
   std::string from;        // weights to begin with; empty: random ones
   RunOptions run;

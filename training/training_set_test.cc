@@ -16,6 +16,7 @@
 #include "training/patch_sampler.h"
 #include "training/training_log.h"
 #include "training/training_set_writer.h"
+#include "training/word_list.h"
 
 namespace lift_slam::training {
 namespace {
@@ -202,6 +203,25 @@ TEST(PatchView, ShiftedIsTheSamePlaneElsewhere) {
   const auto expected = at(view, 1.5 + 2.0, -0.7 + 3.0), got = at(shifted, 2.0, 3.0);
   EXPECT_NEAR(got.first, expected.first, 1e-9);
   EXPECT_NEAR(got.second, expected.second, 1e-9);
+}
+
+TEST(OpenTrainingSets, TakesPathsWithBlanks) {
+  const TemporaryFolder folder;
+  WriteSet(folder / "my set");
+  WriteSet(folder / "b");
+  const std::string path = (folder / "my set").string();
+  EXPECT_EQ(OpenTrainingSets(std::vector{path}).size(), 1U);
+  const auto sets = OpenTrainingSets(JoinWords({path + "=0.5", (folder / "b").string()}));
+  ASSERT_EQ(sets.size(), 2U);
+  EXPECT_EQ(sets[0].set->name(), "my set");
+  EXPECT_EQ(sets[0].share, 0.5);
+}
+
+TEST(WordList, SplitsWhatItJoined) {
+  const std::vector<std::string> words{"a", "b c", "d\\ e\\", " f"};
+  EXPECT_EQ(SplitWords(JoinWords(words)), words);
+  EXPECT_EQ(SplitWords("  a\tb \n"), std::vector<std::string>({"a", "b"}));
+  EXPECT_TRUE(SplitWords(" ").empty());
 }
 
 TEST(PatchSampler, DrawsTheSameBatchForTheSameNumber) {
