@@ -11,6 +11,7 @@
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/fine_tune_command.h"
+#include "training/fine_tuning.h"
 #include "training/first_weights.h"
 #include "training/photograph_import.h"
 #include "training/weights_calibration.h"
@@ -154,6 +155,30 @@ TEST(Trainer, ChoosesTheBestByAValidationThatWasAddedLater) {
   EXPECT_THAT(ReadText(folder / "run/log.1.csv"),
               testing::StartsWith("step,hours,loss,steps_per_s\n2,"));
   EXPECT_THAT(ReadText(folder / "run/log.csv"), testing::HasSubstr("\n4,"));
+}
+
+TEST(TrainInTurn, TakesOfEachRunOnlyItsOwnNetwork) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  LiftWeights from = RandomLiftWeights(LiftTopology::kF, 3);
+  WriteLiftWeights(from, folder / "from.safetensors");
+  TrainingOptions options = TinyRun(folder, "", 1);
+  options.validation.clear();
+  options.from = (folder / "from.safetensors").string();
+  options.descriptor.schedule.warm_up_steps = 0;
+  options.orientation.loss = OrientationLoss::kDescriptor;
+  TrainInTurn({"orientation"}, options, folder / "tuned", 0.0);
+  testing::internal::CaptureStderr();
+  TunedWeights tuned = TrainInTurn({"descriptor", "orientation"}, options, folder / "tuned", 0.0);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("another descriptor"));
+  EXPECT_TRUE(tuned.is_complete);
+  ASSERT_TRUE(tuned.weights);
+  for (const std::string stage : {"descriptor", "orientation"}) {
+    const std::vector<float> values = Values(*tuned.weights, stage + ".");
+    EXPECT_EQ(values, ValuesIn(folder / ("tuned/" + stage + "/best.safetensors"), stage + "."));
+    EXPECT_NE(values, Values(from, stage + ".")) << stage;
+    EXPECT_THAT(tuned.weights->provenance, testing::HasSubstr(stage + ": 1 steps"));
+  }
 }
 
 TEST(Trainer, LearnsToTellPointsApart) {
