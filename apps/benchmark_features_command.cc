@@ -83,18 +83,12 @@ void AddPrecision(const Arguments& arguments, std::span<const NamedWeights> all,
   tables.Add("Precision on given patches", PrecisionTable(all, patches, arguments.quality));
 }
 
-// One set of each kind of images.
-std::vector<ImageSet> Ends(const std::vector<ImageSet>& sets) {
-  if (sets.size() < 2) return sets;
-  return {sets.front(), sets.back()};
-}
-
 void AddTables(const Arguments& arguments, std::span<const NamedWeights> all, Tables& tables,
                std::vector<AccuracyCurve>& curves) {
   const QualityOptions& quality = arguments.quality;
   if (!arguments.patches.empty()) AddPrecision(arguments, all, tables);
   std::vector<ImageSet> sets = RealImageSets(arguments.data, arguments.num_pairs);
-  const std::vector<ImageSet> ends = Ends(sets);
+  const std::vector<ImageSet> ends = OneOfEachKind(sets);
   for (const auto& pair : arguments.extra) sets.push_back(SinglePair(pair[0], pair[1]));
   if (sets.empty() && arguments.patches.empty()) {
     throw InputError("no images: neither --data with sequences nor --pair A B");
@@ -105,9 +99,10 @@ void AddTables(const Arguments& arguments, std::span<const NamedWeights> all, Ta
   if (arguments.Wants("matching")) tables.Add("Matching", MatchingTable(all, sets, quality));
   const std::vector<ImageSet>& known = ends.empty() ? sets : ends;
   if (arguments.Wants("repeatability")) {
-    tables.Add("Repeatability", RepeatabilityTable(all, known));
+    tables.Add("Repeatability", RepeatabilityTable(all, known, quality));
   }
-  if (arguments.Wants("orientation")) tables.Add("Orientation", OrientationTable(all, known));
+  if (arguments.Wants("orientation"))
+    tables.Add("Orientation", OrientationTable(all, known, quality));
   if (arguments.Wants("homography")) {
     tables.Add("Known homographies", HomographyTables(all, known, quality, curves));
   }

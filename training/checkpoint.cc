@@ -6,6 +6,7 @@
 
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/sha256.h"
 
 namespace lift_slam::training {
 namespace {
@@ -13,6 +14,9 @@ namespace {
 using torch::Tensor;
 
 constexpr const char* kFormat = "lift_slam training checkpoint 1";
+// Behind libtorch's archive; 64 digits follow. The first programs wrote none.
+constexpr std::string_view kDigestMark = "\nSHA-256 of all before: ";
+constexpr std::size_t kDigestSize = kDigestMark.size() + 64;
 
 Tensor StateTensor(const RunState& state) {
   return torch::tensor({static_cast<double>(state.step), static_cast<double>(state.skipped),
@@ -26,6 +30,36 @@ std::string FirstLine(const std::exception& error) {
   return text.substr(0, text.find('\n'));
 }
 
+// The archive, compared with its SHA-256 where there is one.
+std::string ReadArchive(const std::filesystem::path& path) {
+  std::string bytes = ReadText(path);
+  if (bytes.size() < kDigestSize) return bytes;
+  const std::string end = bytes.substr(bytes.size() - kDigestSize);
+  if (!end.starts_with(kDigestMark)) return bytes;
+  bytes.resize(bytes.size() - kDigestSize);
+  if (end.substr(kDigestMark.size()) != Sha256Hex(bytes)) {
+    throw InputError(
+        fmt::format("{}: is damaged, its SHA-256 is not the one written with it", path.string()));
+  }
+  return bytes;
+}
+
+void CheckFinite(const std::filesystem::path& path, const std::string& name, const Tensor& tensor) {
+  if (torch::isfinite(tensor).all().item<bool>()) return;
+  throw InputError(fmt::format(
+      "{}: '{}' holds values that are not finite: the checkpoint is damaged", path.string(), name));
+}
+
+void CheckMomentsFinite(const std::filesystem::path& path,
+                        const torch::optim::Optimizer& optimizer) {
+  for (const auto& entry : optimizer.state()) {
+    const auto* adam = dynamic_cast<const torch::optim::AdamParamState*>(entry.second.get());
+    if (adam == nullptr) continue;
+    CheckFinite(path, "optimizer", adam->exp_avg());
+    CheckFinite(path, "optimizer", adam->exp_avg_sq());
+  }
+}
+
 void ReadNetwork(const std::filesystem::path& path, torch::serialize::InputArchive& archive,
                  torch::nn::Module& network) {
   const torch::NoGradGuard no_gradients;
@@ -37,6 +71,7 @@ void ReadNetwork(const std::filesystem::path& path, torch::serialize::InputArchi
           "{}: '{}' is missing or of another shape: the checkpoint is of another topology",
           path.string(), parameter.key()));
     }
+    CheckFinite(path, parameter.key(), stored);
     parameter.value().copy_(stored);
   }
 }
@@ -57,12 +92,13 @@ void WriteCheckpoint(const std::filesystem::path& path, const std::string& stage
   archive.write("optimizer", adam);
   std::ostringstream bytes;
   archive.save_to(bytes);
-  WriteTextAtomically(path, bytes.str());
+  const std::string text = std::move(bytes).str();
+  WriteTextAtomically(path, fmt::format("{}{}{}", text, kDigestMark, Sha256Hex(text)));
 }
 
 RunState ReadCheckpoint(const std::filesystem::path& path, const std::string& stage,
                         torch::nn::Module& network, torch::optim::Optimizer& optimizer) {
-  std::istringstream bytes(ReadText(path));
+  std::istringstream bytes(ReadArchive(path));
   try {
     torch::serialize::InputArchive archive, adam;
     archive.load_from(bytes);
@@ -76,6 +112,7 @@ RunState ReadCheckpoint(const std::filesystem::path& path, const std::string& st
     ReadNetwork(path, archive, network);
     archive.read("optimizer", adam);
     optimizer.load(adam);
+    CheckMomentsFinite(path, optimizer);
     Tensor numbers;
     archive.read("state", numbers);
     const auto at = [&](std::int64_t i) { return numbers[i].item<double>(); };

@@ -18,12 +18,13 @@ struct RunState {
 };
 
 // Writes a file that appears whole or not at all; an old one is replaced. Throws InputError when it
-// cannot be written (disk full): the old one then is still there.
+// cannot be written (disk full): the old one then is still there. Its SHA-256 stands at its end.
 void WriteCheckpoint(const std::filesystem::path& path, const std::string& stage,
                      const RunState& state, const torch::nn::Module& network,
                      torch::optim::Optimizer& optimizer);
 
-// Throws InputError naming the file when it is missing, damaged, or of another stage or topology.
+// Throws InputError naming the file when it is missing, damaged (another SHA-256, where it has one,
+// or values that are not finite), or of another stage or topology.
 RunState ReadCheckpoint(const std::filesystem::path& path, const std::string& stage,
                         torch::nn::Module& network, torch::optim::Optimizer& optimizer);
 

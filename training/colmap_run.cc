@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "lift_slam/datasets/sequence.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_range.h"
+#include "lift_slam/util/option_root.h"
+#include "lift_slam/util/option_writer.h"
 #include "training/colmap_reader.h"
 #include "training/process.h"
 
@@ -35,19 +38,51 @@ std::pair<std::string, std::string> CameraArguments(const Camera& camera) {
   return {"PINHOLE", pinhole};
 }
 
-Camera ExportImages(const std::string& source, const std::filesystem::path& folder,
+// What `work` is a reconstruction of: its file "source".
+std::string DescribeSource(const std::string& sequence, ReconstructionOptions options) {
+  std::filesystem::path path = std::filesystem::weakly_canonical(sequence);
+  if (!path.has_filename()) path = path.parent_path();  // a slash behind it
+  return path.string() + "\n" + OptionsToYaml(MakeOptionRoot(options));
+}
+
+void CheckSource(const ColmapPaths& paths, const std::filesystem::path& work,
+                 const std::string& source) {
+  const std::filesystem::path file = work / "source";
+  const bool is_same = std::filesystem::exists(file) ? ReadText(file) == source
+                                                     : !std::filesystem::exists(paths.images) &&
+                                                           !std::filesystem::exists(paths.database);
+  if (is_same) return;
+  throw InputError(fmt::format(
+      "{}: holds the reconstruction of another sequence, or one with other options (its "
+      "file 'source' tells); remove it or choose another folder",
+      work.string()));
+}
+
+// Appears whole or not at all: what is there is used again.
+void WriteImage(const GrayImage& image, const std::filesystem::path& path) {
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", image.mat(), bytes)) {
+    throw InputError(fmt::format("{}: cannot be encoded", path.string()));
+  }
+  WriteFileAtomically(path, [&](std::ostream& stream) {
+    stream.write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+  });
+}
+
+Camera ExportImages(const std::string& source, const std::filesystem::path& work,
                     const ReconstructionOptions& options) {
   SequenceOptions sequence_options;
   sequence_options.step = options.step;
   const auto sequence = OpenSequence(source, sequence_options);
+  const std::filesystem::path folder = work / "images";
+  CreateFolder(work);
+  WriteTextAtomically(work / "source", DescribeSource(source, options));
   CreateFolder(folder);
   int written = 0;
   while (auto frame = sequence->Next()) {
     if (!frame->image) continue;
     const std::filesystem::path path = folder / fmt::format("{:06}.png", frame->frame_index);
-    if (!std::filesystem::exists(path) && !cv::imwrite(path.string(), frame->image->mat())) {
-      throw InputError(fmt::format("{}: cannot be written (disk full?)", path.string()));
-    }
+    if (!std::filesystem::exists(path)) WriteImage(*frame->image, path);
     if (++written == options.max_frames) break;
   }
   return *sequence->info().camera;
@@ -93,7 +128,8 @@ ColmapPaths ReconstructSequence(const std::string& sequence, const std::filesyst
                                 const ReconstructionOptions& options) {
   options.Check();
   const ColmapPaths paths{work / "sparse", work / "images", work / "database.db"};
-  const Camera camera = ExportImages(sequence, paths.images, options);
+  CheckSource(paths, work, DescribeSource(sequence, options));
+  const Camera camera = ExportImages(sequence, work, options);
   const auto [model, parameters] = CameraArguments(camera);
   const std::filesystem::path done = work / "reconstructed";
   if (!std::filesystem::exists(done)) {

@@ -18,9 +18,10 @@ struct ReconstructionOptions {
 };
 
 // Reconstructs a sequence (any that lift_slam runs on) by COLMAP's structure from motion, on the
-// CPU and without a screen. `work` keeps the images, the database, the models and colmap.log; what
-// is there already is used again. Returns the largest model. Throws InputError when COLMAP is
-// missing, fails, or finds no model.
+// CPU and without a screen. `work` keeps the images, the database, the models, colmap.log and, in
+// `source`, what it is a reconstruction of; what is there already is used again. Returns the
+// largest model. Throws InputError when COLMAP is missing, fails, or finds no model, and when
+// `work` holds the reconstruction of another sequence or one with other options.
 ColmapPaths ReconstructSequence(const std::string& sequence, const std::filesystem::path& work,
                                 const ReconstructionOptions& options);
 

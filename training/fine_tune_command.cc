@@ -1,7 +1,6 @@
 #include "training/fine_tune_command.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -13,8 +12,9 @@
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_root.h"
 #include "training/colmap_run.h"
-#include "training/train_command.h"
+#include "training/fine_tuning.h"
 #include "training/weights_calibration.h"
+#include "training/word_list.h"
 
 namespace lift_slam::training {
 namespace {
@@ -95,24 +95,6 @@ std::vector<std::string> Stages(const std::string& modules) {
   return {modules};
 }
 
-// Trains the stages one after the other. The weights they came to; nothing when a stage was ended
-// before it had any. `is_complete` tells whether all steps were made.
-fs::path TrainStages(const FineTuneArguments& arguments, TrainingOptions options,
-                     bool& is_complete) {
-  fs::path reached;
-  for (const std::string& stage : Stages(arguments.modules)) {
-    options.stage = stage;
-    const fs::path folder = arguments.output / stage;
-    const bool resume = fs::exists(folder / "checkpoint.pt");
-    is_complete = RunTraining(options, folder, resume, arguments.minutes);
-    const fs::path best = folder / "best.safetensors";
-    if (fs::exists(best)) reached = best;
-    if (!is_complete) break;
-    options.from = best.string();
-  }
-  return reached;
-}
-
 // What the SLAM uses of the weights beside the networks: thresholds and ranges for int8.
 void Calibrate(const LiftWeights& from, const FineTuneArguments& arguments,
                const TrainingOptions& options, LiftWeights& weights) {
@@ -137,16 +119,16 @@ void FineTune(FineTuneArguments& arguments) {
   const LiftWeights from = ReadLiftWeights(arguments.from);
   TrainingOptions options = FineTuningDefaults(from);
   ConfigureOptions({}, arguments.overrides, MakeOptionRoot(options));
-  options.data = fmt::format("{}", fmt::join(arguments.data, " "));
-  options.validation = fmt::format("{}", fmt::join(arguments.validation, " "));
+  options.data = JoinWords(arguments.data);
+  options.validation = JoinWords(arguments.validation);
   options.from = arguments.from;
-  bool is_complete = false;
-  const fs::path reached = TrainStages(arguments, options, is_complete);
-  if (!is_complete) std::cerr << "Ended early; the same command goes on.\n";
-  if (reached.empty()) return;
-  LiftWeights weights = ReadLiftWeights(reached);
-  weights.name =
-      fmt::format("fine-tuned ({}{})", arguments.modules, is_complete ? "" : ", not to the end");
+  TunedWeights tuned =
+      TrainInTurn(Stages(arguments.modules), options, arguments.output, arguments.minutes);
+  if (!tuned.is_complete) std::cerr << "Ended early; the same command goes on.\n";
+  if (!tuned.weights) return;
+  LiftWeights& weights = *tuned.weights;
+  weights.name = fmt::format("fine-tuned ({}{})", arguments.modules,
+                             tuned.is_complete ? "" : ", not to the end");
   Calibrate(from, arguments, options, weights);
   const fs::path file = arguments.output / "weights.safetensors";
   WriteLiftWeights(weights, file);

@@ -5,12 +5,14 @@
 #include <sqlite3.h>
 #endif
 
+#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
 #include "lift_slam/testing/temporary_folder.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/colmap_reader.h"
+#include "training/colmap_run.h"
 #include "training/photograph_import.h"
 #include "training/rendered_import.h"
 #include "training/sift_keypoints.h"
@@ -51,6 +53,26 @@ std::string ErrorOf(const Function& function) {
   return "";
 }
 
+TEST(SiftKeypoints, LieWhereTheBlobsAre) {
+  constexpr double kSigma = 4.0;
+  for (const auto& [x, y] :
+       {std::pair(60.0, 50.0), std::pair(60.3, 48.6), std::pair(55.5, 51.75)}) {
+    cv::Mat image(100, 120, CV_8UC1);
+    for (int row = 0; row < image.rows; ++row) {
+      for (int column = 0; column < image.cols; ++column) {
+        const double squared = (column - x) * (column - x) + (row - y) * (row - y);
+        image.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(
+            std::lround(20 + 200 * std::exp(-squared / (2 * kSigma * kSigma))));
+      }
+    }
+    const std::vector<View> found = DetectSift(GrayImage(image), 2.0, 1);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].x, x, 0.1);
+    EXPECT_NEAR(found[0].y, y, 0.1);
+    EXPECT_NEAR(found[0].sigma, kSigma, 0.6);
+  }
+}
+
 TEST(SiftKeypoints, EmptyPlacesHardlyOverlapKeypoints) {
   const GrayImage image(Discs(1));
   std::vector<View> keypoints = DetectSift(image, 2.0, 20);
@@ -82,6 +104,18 @@ TEST(PhotographImport, TakesLicencesFromTheManifest) {
   EXPECT_EQ(set.origin(0).source, "pkg 1");
   EXPECT_GT(set.num_points(), 10U);
   EXPECT_EQ(set.views(0).size(), 1U);
+}
+
+TEST(PhotographImport, NamesTheFolderWithAndWithoutASlashBehindIt) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "holiday");
+  cv::imwrite(folder / "holiday/a.png", Discs(1));
+  for (const char* input : {"holiday", "holiday/"}) {
+    TrainingSetWriter writer(folder / "set");
+    ImportPhotographs(folder / input, {.num_warps = 0}, kQuiet, writer);
+    writer.Finish("");
+    EXPECT_EQ(TrainingSet(folder / "set").origin(0).source, "holiday") << input;
+  }
 }
 
 TEST(PhotographImport, PartsShareNoImage) {
@@ -147,6 +181,15 @@ TEST(RenderedImport, RelatesKeypointsByDepthAndPose) {
   }
 }
 
+TEST(RenderedImport, NamesTheFolderWithASlashBehindIt) {
+  const TemporaryFolder folder;
+  WriteRendered(folder, 20);
+  TrainingSetWriter writer(folder / "set");
+  ImportRendered(folder / "r/", {}, {}, kQuiet, writer);
+  writer.Finish("");
+  EXPECT_EQ(TrainingSet(folder / "set").origin(0).name, "r/000000");
+}
+
 TEST(RenderedImport, FindsNothingWherePosesAreWrong) {
   const TemporaryFolder right, wrong;
   WriteRendered(right, 20);
@@ -164,6 +207,26 @@ TEST(RenderedImport, NamesWhatIsMissing) {
   TrainingSetWriter writer(folder / "set");
   EXPECT_THAT(ErrorOf([&] { ImportRendered(folder / "r", {}, {}, kQuiet, writer); }),
               HasSubstr("pairs.txt"));
+}
+
+// Without COLMAP: up to where it would be started.
+TEST(ReconstructSequence, RefusesTheFolderOfAnotherSequenceOrOtherOptions) {
+  const TemporaryFolder folder;
+  WriteRendered(folder, 20);
+  const std::string sequence = (folder / "r/sequences/00").string();
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.path().c_str(), 1);
+  const auto error_of = [&](const std::string& of, const ReconstructionOptions& options) {
+    return ErrorOf([&] { ReconstructSequence(of, folder / "work", options); });
+  };
+  EXPECT_THAT(error_of(sequence, {}), HasSubstr("colmap: cannot be run"));
+  EXPECT_EQ(cv::imread(folder / "work/images/000001.png", cv::IMREAD_GRAYSCALE).rows, 200);
+  EXPECT_THAT(error_of(sequence + "/", {}), HasSubstr("colmap: cannot be run"));
+  EXPECT_THAT(error_of(sequence, {.step = 2}), HasSubstr("another sequence, or one with other"));
+  EXPECT_THAT(error_of(sequence + "/image_0", {}), HasSubstr("another sequence"));
+  std::filesystem::remove(folder / "work/source");
+  EXPECT_THAT(error_of(sequence, {}), HasSubstr("another sequence")) << "unknown whose it is";
+  setenv("PATH", path.c_str(), 1);
 }
 
 template <class T>

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "lift_slam/util/input_error.h"
+#include "training/word_list.h"
 
 namespace lift_slam::training {
 namespace {
@@ -36,9 +37,12 @@ bool HasPoint(const TrainingSet& set, double min_sigma) {
 }  // namespace
 
 std::vector<WeightedSet> OpenTrainingSets(const std::string& list) {
+  return OpenTrainingSets(SplitWords(list));
+}
+
+std::vector<WeightedSet> OpenTrainingSets(const std::vector<std::string>& words) {
   std::vector<WeightedSet> sets;
-  std::istringstream words(list);
-  for (std::string word; words >> word;) {
+  for (const std::string& word : words) {
     const std::size_t equals = word.rfind('=');
     double share = 1.0;
     if (equals != std::string::npos) {

@@ -18,8 +18,9 @@ struct WeightedSet {
   double share = 1.0;
 };
 
-// Opens "PATH[=SHARE]...", separated by blanks; shares are relative to one another and 1 when not
-// given. Throws InputError.
+// Opens each PATH[=SHARE]; shares are relative to one another and 1 when not given. In one text
+// they are separated by blanks (word_list.h). Throws InputError.
+std::vector<WeightedSet> OpenTrainingSets(const std::vector<std::string>& words);
 std::vector<WeightedSet> OpenTrainingSets(const std::string& list);
 
 // What patches a stage needs.

@@ -12,6 +12,7 @@
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_range.h"
 #include "lift_slam/util/sha256.h"
+#include "training/folder_name.h"
 #include "training/sift_keypoints.h"
 
 namespace lift_slam::training {
@@ -61,7 +62,7 @@ std::vector<ImageOrigin> ListImages(const std::filesystem::path& folder) {
   std::sort(names.begin(), names.end());
   std::vector<ImageOrigin> origins;
   for (const std::string& name : names) {
-    origins.push_back({name, name, folder.filename().string(), "unknown", "unknown"});
+    origins.push_back({name, name, FolderName(folder), "unknown", "unknown"});
   }
   return origins;
 }

@@ -13,6 +13,7 @@
 #include "lift_slam/util/option_writer.h"
 #include "training/colmap_import.h"
 #include "training/colmap_run.h"
+#include "training/folder_name.h"
 #include "training/photograph_import.h"
 #include "training/rendered_import.h"
 
@@ -86,7 +87,7 @@ void PrepareRendered(const PrepareArguments& arguments) {
   const std::string settings = Configure(arguments, options);
   TrainingSetWriter writer(arguments.output);
   for (const std::filesystem::path& input : arguments.inputs) {
-    const std::string name = std::filesystem::absolute(input / ".").parent_path().filename();
+    const std::string name = FolderName(input);
     // Stretches of one track, NAME-START, show the same places.
     const std::string scene = name.substr(0, name.find_last_of('-'));
     const ImageOrigin origin{.name = name,

@@ -13,6 +13,7 @@
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_range.h"
+#include "training/folder_name.h"
 #include "training/sift_keypoints.h"
 
 namespace lift_slam::training {
@@ -164,7 +165,7 @@ void RenderedSequence::AddTo(const ImageOrigin& origin, const ImportProgress& pr
                              TrainingSetWriter& writer) {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     ImageOrigin image_origin = origin;
-    image_origin.name = fmt::format("{}/{:06}", folder_.filename().string(), i);
+    image_origin.name = fmt::format("{}/{:06}", FolderName(folder_), i);
     frames_[i].number = writer.AddImage(frames_[i].image, image_origin);
   }
   for (std::size_t i = 0; i < frames_.size(); ++i) {

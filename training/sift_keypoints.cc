@@ -5,6 +5,7 @@
 #include <opencv2/features2d.hpp>
 
 #include "lift_slam/features/lift/patch_sampling.h"
+#include "lift_slam/features/sift/sift_position.h"
 
 namespace lift_slam::training {
 namespace {
@@ -44,7 +45,9 @@ std::vector<View> DetectSift(const GrayImage& image, double min_sigma, int max_c
     const float sigma = 0.5F * keypoint.size;
     if (sigma < min_sigma) continue;
     if (max_count > 0 && std::ssize(keypoints) == max_count) break;
-    keypoints.push_back({.x = keypoint.pt.x, .y = keypoint.pt.y, .sigma = sigma});
+    keypoints.push_back({.x = keypoint.pt.x + kSiftPositionOffsetPx,
+                         .y = keypoint.pt.y + kSiftPositionOffsetPx,
+                         .sigma = sigma});
   }
   return keypoints;
 }

@@ -17,6 +17,7 @@
 #include "lift_slam/util/option_root.h"
 #include "lift_slam/util/option_writer.h"
 #include "training/trainer.h"
+#include "training/word_list.h"
 
 namespace lift_slam::training {
 namespace {
@@ -37,13 +38,8 @@ TrainingOptions ReadOptions(const TrainArguments& arguments) {
   if (arguments.resume && file.empty()) file = arguments.output / "settings.yaml";
   ConfigureOptions(file, arguments.overrides, MakeOptionRoot(options));
   options.stage = arguments.stage;
-  const auto joined = [](const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-    return text;
-  };
-  if (!arguments.data.empty()) options.data = joined(arguments.data);
-  if (!arguments.validation.empty()) options.validation = joined(arguments.validation);
+  if (!arguments.data.empty()) options.data = JoinWords(arguments.data);
+  if (!arguments.validation.empty()) options.validation = JoinWords(arguments.validation);
   if (!arguments.from.empty()) options.from = arguments.from;
   return options;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -16,6 +17,7 @@
 #include "training/batch_producer.h"
 #include "training/first_weights.h"
 #include "training/lift_modules.h"
+#include "training/stage_network.h"
 #include "training/training_log.h"
 
 namespace lift_slam::training {
@@ -24,14 +26,6 @@ namespace {
 constexpr int kMaxFailures = 50;
 constexpr double kMaxGradientNorm = 20.0;
 constexpr std::uint64_t kValidationSeed = 90001;
-
-Stage StageNamed(const std::string& name) {
-  for (std::size_t i = 0; i < std::size(kStageNames); ++i) {
-    if (name == kStageNames[i]) return static_cast<Stage>(i);
-  }
-  throw InputError(fmt::format("stage '{}' is unknown, expected {}, {} or {}", name, kStageNames[0],
-                               kStageNames[1], kStageNames[2]));
-}
 
 LiftWeights BeginningWeights(const TrainingOptions& options) {
   LiftWeights random =
@@ -116,6 +110,7 @@ Trainer::Trainer(const TrainingOptions& options, const std::filesystem::path& ou
                                                     schedule().learning_rate);
   if (resume) {
     state_ = ReadCheckpoint(checkpoint, options.stage, network_->network(), *optimizer_);
+    if (!validation_.empty()) state_.best = FigureOfBest();
   }
   CreateFolder(output);
   WriteConfigFile(output / "settings.yaml", "lift_slam_train: settings of this run",
@@ -224,6 +219,16 @@ void Trainer::Validate() {
     state_.best = figure;
     WriteWeights("best.safetensors");
   }
+}
+
+double Trainer::FigureOfBest() {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const std::filesystem::path file = output_ / "best.safetensors";
+  if (!std::filesystem::exists(file)) return kNone;
+  LiftWeights best = weights_;
+  TakeNetwork(stage_, ReadLiftWeights(file), best);
+  const double figure = MakeStage(stage_, options_, best)->Validate(validation_).figure;
+  return std::isfinite(figure) ? figure : kNone;
 }
 
 void Trainer::Save() {

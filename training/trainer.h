@@ -28,7 +28,7 @@ struct TrainingProgress {
 //   checkpoint.pt        network, optimizer and step, to go on from
 //   latest.safetensors   the weights of the checkpoint, with the other two networks as given
 //   best.safetensors     those of the best validation, that of the weights given included (the
-//                        latest without validation sets)
+//                        latest without validation sets); a run that goes on validates it anew
 //   log.csv, curves.html the course of the training
 class Trainer {
  public:
@@ -48,6 +48,8 @@ class Trainer {
   void Step(const PatchBatch& batch);
   void SetLearningRate();
   void Validate();
+  // By the validation of this run, which may be another than it was chosen by.
+  double FigureOfBest();
   void Save();
   void WriteWeights(const std::string& file);
   const ScheduleOptions& schedule() const;

@@ -11,6 +11,8 @@
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/fine_tune_command.h"
+#include "training/fine_tuning.h"
+#include "training/first_weights.h"
 #include "training/photograph_import.h"
 #include "training/weights_calibration.h"
 
@@ -68,6 +70,28 @@ RunState TrainOn(const TrainingOptions& options, const std::filesystem::path& ou
   return trainer.state();
 }
 
+std::vector<float> Values(LiftWeights& weights, const std::string& network) {
+  std::vector<float> values;
+  for (const LiftParameter& parameter : Parameters(weights)) {
+    if (!parameter.name.starts_with(network)) continue;
+    values.insert(values.end(), parameter.values.begin(), parameter.values.end());
+  }
+  return values;
+}
+
+std::vector<float> ValuesIn(const std::filesystem::path& file, const std::string& network) {
+  LiftWeights weights = ReadLiftWeights(file);
+  return Values(weights, network);
+}
+
+float LargestDifference(const std::vector<float>& a, const std::vector<float>& b) {
+  float largest = a.size() == b.size() ? 0.0F : 1e9F;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    largest = std::max(largest, std::abs(a[i] - b[i]));
+  }
+  return largest;
+}
+
 TEST(Trainer, TrainsAllThreeNetworksAndTheirWeightsExtractFeatures) {
   const TemporaryFolder folder;
   MakeSet(folder);
@@ -106,16 +130,54 @@ TEST(Trainer, GoesOnFromItsCheckpointAsIfNeverStopped) {
   const TemporaryFolder folder;
   MakeSet(folder);
   TrainingOptions options = TinyRun(folder, "detector", 4);
+  options.detector.schedule.learning_rate = 1e-2;
+  options.detector.schedule.warm_up_steps = 0;
   TrainOn(options, folder / "whole", false);
   EXPECT_EQ(TrainOn(options, folder / "parts", false, 2).step, 2);
   EXPECT_EQ(TrainOn(options, folder / "parts", true).step, 4);
-  LiftWeights whole = ReadLiftWeights(folder / "whole/latest.safetensors");
-  LiftWeights parts = ReadLiftWeights(folder / "parts/latest.safetensors");
-  const auto expected = Parameters(whole), got = Parameters(parts);
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    for (std::size_t k = 0; k < expected[i].values.size(); ++k) {
-      ASSERT_NEAR(expected[i].values[k], got[i].values[k], 1e-5) << expected[i].name;
-    }
+  LiftWeights start = RandomLiftWeights(LiftTopology::kF, 1);
+  BeginWithBlobs(start);
+  const std::vector<float> began = Values(start, "detector.");
+  const std::vector<float> whole = ValuesIn(folder / "whole/latest.safetensors", "detector.");
+  const std::vector<float> parts = ValuesIn(folder / "parts/latest.safetensors", "detector.");
+  EXPECT_GT(LargestDifference(whole, began), 1e-3F);
+  EXPECT_LT(LargestDifference(whole, parts), 1e-5F);
+}
+
+TEST(Trainer, ChoosesTheBestByAValidationThatWasAddedLater) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  TrainingOptions options = TinyRun(folder, "detector", 4);
+  options.validation.clear();
+  EXPECT_LT(TrainOn(options, folder / "run", false, 2).best, 0.0);
+  options.validation = options.data;
+  EXPECT_GE(TrainOn(options, folder / "run", true).best, 0.0);
+  EXPECT_THAT(ReadText(folder / "run/log.1.csv"),
+              testing::StartsWith("step,hours,loss,steps_per_s\n2,"));
+  EXPECT_THAT(ReadText(folder / "run/log.csv"), testing::HasSubstr("\n4,"));
+}
+
+TEST(TrainInTurn, TakesOfEachRunOnlyItsOwnNetwork) {
+  const TemporaryFolder folder;
+  MakeSet(folder);
+  LiftWeights from = RandomLiftWeights(LiftTopology::kF, 3);
+  WriteLiftWeights(from, folder / "from.safetensors");
+  TrainingOptions options = TinyRun(folder, "", 1);
+  options.validation.clear();
+  options.from = (folder / "from.safetensors").string();
+  options.descriptor.schedule.warm_up_steps = 0;
+  options.orientation.loss = OrientationLoss::kDescriptor;
+  TrainInTurn({"orientation"}, options, folder / "tuned", 0.0);
+  testing::internal::CaptureStderr();
+  TunedWeights tuned = TrainInTurn({"descriptor", "orientation"}, options, folder / "tuned", 0.0);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("another descriptor"));
+  EXPECT_TRUE(tuned.is_complete);
+  ASSERT_TRUE(tuned.weights);
+  for (const std::string stage : {"descriptor", "orientation"}) {
+    const std::vector<float> values = Values(*tuned.weights, stage + ".");
+    EXPECT_EQ(values, ValuesIn(folder / ("tuned/" + stage + "/best.safetensors"), stage + "."));
+    EXPECT_NE(values, Values(from, stage + ".")) << stage;
+    EXPECT_THAT(tuned.weights->provenance, testing::HasSubstr(stage + ": 1 steps"));
   }
 }
 

@@ -29,19 +29,31 @@ TrainingLog::TrainingLog(const std::filesystem::path& folder, bool going_on, std
   }
 }
 
+// The lines so far, which have other columns than those to come, under a name that is free.
+void TrainingLog::PutAside() {
+  int number = 1;
+  const auto path = [&] { return folder_ / fmt::format("log.{}.csv", number); };
+  while (std::filesystem::exists(path())) ++number;
+  WriteTextAtomically(path(), Text());
+  lines_.clear();
+}
+
+std::string TrainingLog::Text() const {
+  std::string text;
+  for (const std::string& line : lines_) text += line + "\n";
+  return text;
+}
+
 void TrainingLog::Add(const LogEntry& entry) {
-  if (lines_.empty()) {
-    std::string heading = "step,hours,loss,steps_per_s";
-    for (const auto& [name, value] : entry.validation) heading += "," + name;
-    lines_.push_back(heading);
-  }
+  std::string heading = "step,hours,loss,steps_per_s";
+  for (const auto& [name, value] : entry.validation) heading += "," + name;
+  if (!lines_.empty() && lines_.front() != heading) PutAside();
+  if (lines_.empty()) lines_.push_back(heading);
   std::string line = fmt::format("{},{:.4f},", entry.step, entry.hours);
   line += entry.loss ? fmt::format("{:.5f},{:.2f}", *entry.loss, entry.steps_per_s) : ",";
   for (const auto& [name, value] : entry.validation) line += fmt::format(",{:.5f}", value);
   lines_.push_back(line);
-  std::string text;
-  for (const std::string& kept : lines_) text += kept + "\n";
-  WriteTextAtomically(folder_ / "log.csv", text);
+  WriteTextAtomically(folder_ / "log.csv", Text());
   Draw();
 }
 

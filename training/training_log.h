@@ -18,7 +18,9 @@ struct LogEntry {
   std::vector<std::pair<std::string, double>> validation{};  // empty: without validation sets
 };
 
-// The course of a run: log.csv and, drawn from it, curves.html (SVG).
+// The course of a run: log.csv and, drawn from it, curves.html (SVG). Where a run goes on with
+// other figures of its validation a new log.csv begins, and what was there becomes log.1.csv,
+// log.2.csv...
 class TrainingLog {
  public:
   // `folder` is the run's. With `going_on`, lines up to `step` are kept and later ones, of a run
@@ -28,6 +30,8 @@ class TrainingLog {
   void Add(const LogEntry& entry);
 
  private:
+  void PutAside();
+  std::string Text() const;
   void Draw() const;
 
   std::filesystem::path folder_;

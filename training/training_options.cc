@@ -2,9 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_range.h"
 
 namespace lift_slam::training {
+
+Stage StageNamed(const std::string& name) {
+  for (std::size_t i = 0; i < std::size(kStageNames); ++i) {
+    if (name == kStageNames[i]) return static_cast<Stage>(i);
+  }
+  throw InputError(fmt::format("stage '{}' is unknown, expected {}, {} or {}", name, kStageNames[0],
+                               kStageNames[1], kStageNames[2]));
+}
 
 void ScheduleOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("batch", batch, "points of a step");
@@ -86,7 +95,8 @@ void RunOptions::Check() const {
 
 void TrainingOptions::Visit(OptionVisitor& visitor) {
   visitor.Field("stage", stage, "descriptor, orientation or detector");
-  visitor.Field("data", data, "training sets, PATH[=SHARE]..., separated by blanks");
+  visitor.Field("data", data,
+                "training sets, PATH[=SHARE]..., separated by blanks; \\ before a blank in a path");
   visitor.Field("validation", validation, "sets of other images; empty: none");
   visitor.Field("from", from, "weights to begin with; empty: random ones");
   visitor.Group("run", run, "the run itself");

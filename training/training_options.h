@@ -11,6 +11,7 @@ namespace lift_slam::training {
 
 enum class Stage { kDescriptor, kOrientation, kDetector };
 inline constexpr std::string_view kStageNames[] = {"descriptor", "orientation", "detector"};
+Stage StageNamed(const std::string& name);  // throws InputError for another name
 
 // What the three stages have in common.
 struct ScheduleOptions {
@@ -87,7 +88,7 @@ struct RunOptions {
 // Everything about one training run: what settings.yaml holds.
 struct TrainingOptions {
   std::string stage = "descriptor";
-  std::string data;        // training sets: PATH[=SHARE]...
+  std::string data;        // training sets: PATH[=SHARE]... (word_list.h)
   std::string validation;  // of other images; empty: no validation, the last weights are the best
   std::string from;        // weights to begin with; empty: random ones
   RunOptions run;

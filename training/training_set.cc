@@ -8,6 +8,7 @@
 
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
+#include "training/folder_name.h"
 #include "training/training_set_writer.h"
 
 namespace lift_slam::training {
@@ -107,7 +108,7 @@ bool LiesIn(const GrayImage& image, const View& view) {
 }  // namespace
 
 TrainingSet::TrainingSet(const std::filesystem::path& folder)
-    : folder_(folder), name_(std::filesystem::absolute(folder / ".").parent_path().filename()) {
+    : folder_(folder), name_(FolderName(folder)) {
   if (!std::filesystem::is_directory(folder)) {
     throw InputError(
         fmt::format("{}: there is no such training set ('lift_slam_train prepare' "
@@ -148,6 +149,10 @@ void TrainingSet::Check() const {
       std::adjacent_find(first_views_.begin(), first_views_.end(), std::greater_equal<>()) !=
           first_views_.end()) {
     refuse("points.bin and views.bin do not fit together");
+  }
+  const auto image_of = [&](std::uint32_t first_view) { return views_[first_view].image; };
+  if (!std::ranges::is_sorted(first_views_.first(num_points()), {}, image_of)) {
+    refuse("points are not sorted by the image of their first view");
   }
   for (const std::span<const View> views : {views_, empty_places_}) {
     for (const View& view : views) {

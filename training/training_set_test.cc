@@ -14,7 +14,9 @@
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/patch_sampler.h"
+#include "training/training_log.h"
 #include "training/training_set_writer.h"
+#include "training/word_list.h"
 
 namespace lift_slam::training {
 namespace {
@@ -119,6 +121,14 @@ TEST(TrainingSet, RefusesViewsOutsideTheirImage) {
   }
 }
 
+TEST(TrainingSet, RefusesPointsThatAreNotSortedByImage) {
+  const TemporaryFolder folder;
+  WriteSet(folder.path());
+  Overwrite(folder / "views.bin", 0, std::uint32_t{1});
+  Overwrite(folder / "views.bin", 2 * sizeof(View), std::uint32_t{0});
+  EXPECT_THAT(ErrorOf(folder.path()), HasSubstr("not sorted by the image"));
+}
+
 TEST(TrainingSet, RefusesAnotherFormat) {
   const TemporaryFolder folder;
   WriteSet(folder.path());
@@ -127,6 +137,31 @@ TEST(TrainingSet, RefusesAnotherFormat) {
   folder.Write("manifest.json",
                "{\"format\":" + std::string(1'000'000, '[') + std::string(1'000'000, ']') + "}");
   EXPECT_THAT(ErrorOf(folder.path()), HasSubstr("format is array, expected"));
+}
+
+TEST(TrainingSetWriter, KeepsTheOldSetUntilTheNewOneIsFinished) {
+  const TemporaryFolder folder;
+  WriteSet(folder.path());
+  {
+    TrainingSetWriter given_up(folder.path());
+    given_up.AddImage(TestImage(100, 100, 0), {});
+    EXPECT_EQ(ErrorOf(folder.path()), "");
+  }
+  EXPECT_EQ(TrainingSet(folder.path()).num_images(), 2U);
+  EXPECT_FALSE(std::filesystem::exists(folder / "images.bin.part"));
+  TrainingSetWriter writer(folder.path());
+  const View view{writer.AddImage(TestImage(100, 100, 0), {}), 50.0F, 50.0F, 2.0F};
+  writer.AddPoint({&view, 1});
+  writer.Finish("");
+  EXPECT_EQ(TrainingSet(folder.path()).num_images(), 1U);
+}
+
+TEST(TrainingSetWriter, LeavesAColmapModelAlone) {
+  const TemporaryFolder folder;
+  folder.Write("images.bin", "COLMAP's");
+  folder.Write("points3D.bin", "");
+  EXPECT_THROW(TrainingSetWriter(folder.path()), InputError);
+  EXPECT_EQ(ReadText(folder / "images.bin"), "COLMAP's");
 }
 
 TEST(TrainingSetWriter, RefusesASetWithoutPoints) {
@@ -170,6 +205,25 @@ TEST(PatchView, ShiftedIsTheSamePlaneElsewhere) {
   EXPECT_NEAR(got.second, expected.second, 1e-9);
 }
 
+TEST(OpenTrainingSets, TakesPathsWithBlanks) {
+  const TemporaryFolder folder;
+  WriteSet(folder / "my set");
+  WriteSet(folder / "b");
+  const std::string path = (folder / "my set").string();
+  EXPECT_EQ(OpenTrainingSets(std::vector{path}).size(), 1U);
+  const auto sets = OpenTrainingSets(JoinWords({path + "=0.5", (folder / "b").string()}));
+  ASSERT_EQ(sets.size(), 2U);
+  EXPECT_EQ(sets[0].set->name(), "my set");
+  EXPECT_EQ(sets[0].share, 0.5);
+}
+
+TEST(WordList, SplitsWhatItJoined) {
+  const std::vector<std::string> words{"a", "b c", "d\\ e\\", " f"};
+  EXPECT_EQ(SplitWords(JoinWords(words)), words);
+  EXPECT_EQ(SplitWords("  a\tb \n"), std::vector<std::string>({"a", "b"}));
+  EXPECT_TRUE(SplitWords(" ").empty());
+}
+
 TEST(PatchSampler, DrawsTheSameBatchForTheSameNumber) {
   const TemporaryFolder folder;
   WriteSet(folder.path());
@@ -198,6 +252,18 @@ TEST(PatchSampler, RefusesSetsThatCannotServe) {
   EXPECT_THROW(PatchSampler(sets, {.min_sigma = 50.0}, {}, {}, 1), InputError);
   EXPECT_THROW(OpenTrainingSets(""), InputError);
   EXPECT_THROW(OpenTrainingSets(folder.path().string() + "=-1"), InputError);
+}
+
+TEST(TrainingLog, BeginsAnewWithOtherFigures) {
+  const TemporaryFolder folder;
+  TrainingLog(folder.path(), false, 0).Add({.step = 2, .loss = 0.5});
+  TrainingLog log(folder.path(), true, 2);
+  log.Add({.step = 4, .loss = 0.25, .validation = {{"FPR95", 0.1}}});
+  log.Add({.step = 6, .loss = 0.25, .validation = {{"FPR95", 0.2}}});
+  EXPECT_EQ(ReadText(folder / "log.csv"),
+            "step,hours,loss,steps_per_s,FPR95\n4,0.0000,0.25000,0.00,0.10000\n"
+            "6,0.0000,0.25000,0.00,0.20000\n");
+  EXPECT_EQ(ReadText(folder / "log.1.csv"), "step,hours,loss,steps_per_s\n2,0.0000,0.50000,0.00\n");
 }
 
 TEST(ChangeLight, StaysWithinGreyValuesAndKeepsThePatchWithoutChanges) {

@@ -17,6 +17,16 @@ void WriteNumber(std::ostream& stream, std::size_t number) {
   stream.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+// COLMAP's images.bin is another file of the same name.
+void RefuseColmapModel(const std::filesystem::path& folder) {
+  for (const char* name : {"cameras.bin", "cameras.txt", "points3D.bin", "points3D.txt"}) {
+    if (!std::filesystem::exists(folder / name)) continue;
+    throw InputError(
+        fmt::format("{}: holds a COLMAP model ({}); choose another folder for the training set",
+                    folder.string(), name));
+  }
+}
+
 template <class Record>
 void WriteRecords(const std::filesystem::path& path, std::span<const Record> records) {
   WriteFileAtomically(path, [&](std::ostream& stream) {
@@ -27,14 +37,21 @@ void WriteRecords(const std::filesystem::path& path, std::span<const Record> rec
 
 }  // namespace
 
-TrainingSetWriter::TrainingSetWriter(const std::filesystem::path& folder) : folder_(folder) {
+TrainingSetWriter::TrainingSetWriter(const std::filesystem::path& folder)
+    : folder_(folder), unfinished_images_(folder / "images.bin.part") {
+  RefuseColmapModel(folder);
   CreateFolder(folder);
-  std::error_code ignored;
-  std::filesystem::remove(folder / "manifest.json", ignored);
-  images_.open(folder / "images.bin", std::ios::binary | std::ios::trunc);
+  images_.open(unfinished_images_, std::ios::binary | std::ios::trunc);
   if (!images_) {
-    throw InputError(fmt::format("{}: cannot be written", (folder / "images.bin").string()));
+    throw InputError(fmt::format("{}: cannot be written", unfinished_images_.string()));
   }
+}
+
+TrainingSetWriter::~TrainingSetWriter() {
+  if (is_finished_) return;
+  images_.close();
+  std::error_code ignored;
+  std::filesystem::remove(unfinished_images_, ignored);
 }
 
 std::uint32_t TrainingSetWriter::AddImage(const GrayImage& image, const ImageOrigin& origin) {
@@ -49,10 +66,7 @@ std::uint32_t TrainingSetWriter::AddImage(const GrayImage& image, const ImageOri
       images_.write(reinterpret_cast<const char*>(level.image.row(y)), level.image.width());
     }
   }
-  if (!images_) {
-    throw InputError(
-        fmt::format("{}: cannot be written (disk full?)", (folder_ / "images.bin").string()));
-  }
+  CheckImagesAreWritten();
   origins_.push_back(origin);
   return static_cast<std::uint32_t>(origins_.size() - 1);
 }
@@ -68,12 +82,27 @@ void TrainingSetWriter::Finish(const std::string& description) {
                                  folder_.string(), origins_.size()));
   }
   images_.close();
-  if (!images_) {
-    throw InputError(
-        fmt::format("{}: cannot be written (disk full?)", (folder_ / "images.bin").string()));
-  }
+  CheckImagesAreWritten();
+  TakePlaceOfOldSet();
   WritePoints();
   WriteManifest(description);
+}
+
+void TrainingSetWriter::CheckImagesAreWritten() const {
+  if (images_) return;
+  throw InputError(fmt::format("{}: cannot be written (disk full?)", unfinished_images_.string()));
+}
+
+// From here to the new manifest the folder holds no set: half of each would be worse.
+void TrainingSetWriter::TakePlaceOfOldSet() {
+  std::error_code error;
+  std::filesystem::remove(folder_ / "manifest.json", error);
+  if (!error) std::filesystem::rename(unfinished_images_, folder_ / "images.bin", error);
+  if (error) {
+    throw InputError(
+        fmt::format("{}: the set cannot be replaced: {}", folder_.string(), error.message()));
+  }
+  is_finished_ = true;
 }
 
 void TrainingSetWriter::WritePoints() {

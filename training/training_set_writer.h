@@ -15,12 +15,15 @@ namespace lift_slam::training {
 inline constexpr std::string_view kTrainingSetFormat = "lift_slam training set 1";
 
 // Writes a training set (training_set.h). Images first or points first does not matter, but the
-// views of a point may only name images that were added. The folder holds a complete set only after
-// Finish: the manifest, without which nobody reads it, is written last.
+// views of a point may only name images that were added. A set that is in the folder stays as it is
+// until Finish, which replaces it: the manifest, without which nobody reads it, is written last.
 class TrainingSetWriter {
  public:
-  // Makes the folder; a set that is in it is given up. Throws InputError when it cannot be written.
+  // Makes the folder. Throws InputError when it cannot be written, or holds a COLMAP model.
   explicit TrainingSetWriter(const std::filesystem::path& folder);
+  ~TrainingSetWriter();  // what was written without Finish is removed
+  TrainingSetWriter(const TrainingSetWriter&) = delete;
+  TrainingSetWriter& operator=(const TrainingSetWriter&) = delete;
 
   // Its number, counted from 0. Throws InputError when the disk is full.
   std::uint32_t AddImage(const GrayImage& image, const ImageOrigin& origin);
@@ -36,11 +39,14 @@ class TrainingSetWriter {
   void Finish(const std::string& description);
 
  private:
+  void CheckImagesAreWritten() const;
+  void TakePlaceOfOldSet();
   void WritePoints();
   void WriteManifest(const std::string& description);
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, unfinished_images_;
   std::ofstream images_;
+  bool is_finished_ = false;
   std::vector<ImageOrigin> origins_;
   std::vector<std::vector<View>> points_;
   std::vector<View> empty_places_;

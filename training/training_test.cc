@@ -9,6 +9,7 @@
 #include "lift_slam/features/lift/lift_weights_topology.h"
 #include "lift_slam/nn/soft_argmax.h"
 #include "lift_slam/testing/temporary_folder.h"
+#include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "training/checkpoint.h"
 #include "training/distance_statistics.h"
@@ -227,6 +228,36 @@ TEST(Checkpoint, ComesBackAndRefusesOthers) {
   EXPECT_THAT(error_of("detector", descriptor), HasSubstr("another topology"));
   std::filesystem::resize_file(folder / "c.pt", 1000);
   EXPECT_THAT(error_of("detector", read), HasSubstr("damaged"));
+}
+
+TEST(Checkpoint, RefusesDamagedValues) {
+  const TemporaryFolder folder;
+  DetectorModule network;
+  torch::optim::Adam adam(network.parameters(), 0.01);
+  const auto error_of = [&](const std::string& bytes) {
+    folder.Write("c.pt", bytes);
+    try {
+      ReadCheckpoint(folder / "c.pt", "detector", network, adam);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto written = [&] {
+    WriteCheckpoint(folder / "c.pt", "detector", {}, network, adam);
+    return ReadText(folder / "c.pt");
+  };
+  std::string bytes = written();
+  EXPECT_EQ(error_of(bytes), "");
+  EXPECT_EQ(error_of(bytes.substr(0, bytes.rfind("\nSHA-256"))), "") << "as it was written before";
+  const float first = network.conv1->weight.flatten()[0].item<float>();
+  const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(&first), 4));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] = static_cast<char>(bytes[at] ^ 1);
+  EXPECT_THAT(error_of(bytes), HasSubstr("is damaged, its SHA-256"));
+  const torch::NoGradGuard no_gradients;
+  network.conv1->weight.fill_(std::nan(""));
+  EXPECT_THAT(error_of(written()), HasSubstr("'conv1.weight' holds values that are not finite"));
 }
 
 }  // namespace

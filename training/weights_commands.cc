@@ -73,7 +73,7 @@ void Calibrate(const CalibrateArguments& arguments) {
     throw InputError(
         fmt::format("{}: only topology F can be measured here", arguments.weights.string()));
   }
-  const auto sets = OpenTrainingSets(fmt::format("{}", fmt::join(arguments.data, " ")));
+  const auto sets = OpenTrainingSets(arguments.data);
   CalibrateDescriptor(sets, {.batches = arguments.batches}, arguments.nearest_wrong, weights);
   WriteLiftWeights(weights, arguments.output.empty() ? arguments.weights : arguments.output);
   std::cout << fmt::format(

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
 #include "lift_slam/datasets/camera_file.h"
 #include "lift_slam/util/input_error.h"
+#include "lift_slam/util/number_text.h"
 
 namespace lift_slam {
 namespace {
@@ -22,13 +24,14 @@ GrayImage Read(const std::filesystem::path& path) {
 std::vector<std::filesystem::path> FilesIn(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   if (!std::filesystem::is_directory(folder)) return files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    files.push_back(entry.path());
-  // By number: "10.5.jpg" comes after "9.5.jpg".
-  std::ranges::sort(files, [](const auto& a, const auto& b) {
-    const std::string first = a.stem().string(), second = b.stem().string();
-    return std::stod(first) < std::stod(second);
-  });
+  // By number: "10.5.jpg" comes after "9.5.jpg". Other files (.DS_Store) are no images.
+  std::vector<std::pair<double, std::filesystem::path>> numbered;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto number = ParseDouble(entry.path().stem().string());
+    if (number && std::isfinite(*number)) numbered.emplace_back(*number, entry.path());
+  }
+  std::ranges::sort(numbered);
+  for (const auto& [number, path] : numbered) files.push_back(path);
   return files;
 }
 
@@ -77,7 +80,15 @@ ImageSet KitchenPairs(const std::filesystem::path& data, int count, int skip, Im
                skip, 1.0, cache);
 }
 
+const std::uint8_t* FirstPixel(const ImageSet& set) { return set.pairs.front().first.row(0); }
+
 }  // namespace
+
+std::vector<ImageSet> OneOfEachKind(const std::vector<ImageSet>& sets) {
+  if (sets.size() < 2) return sets;
+  if (FirstPixel(sets.front()) == FirstPixel(sets.back())) return {sets.front()};
+  return {sets.front(), sets.back()};
+}
 
 ImageSet SinglePair(const std::filesystem::path& a, const std::filesystem::path& b) {
   return {

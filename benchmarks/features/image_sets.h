@@ -24,6 +24,9 @@ struct ImageSet {
 // word on standard error.
 std::vector<ImageSet> RealImageSets(const std::filesystem::path& data, int count);
 
+// The first and the last of these sets; the last only when its first images are others.
+std::vector<ImageSet> OneOfEachKind(const std::vector<ImageSet>& sets);
+
 // Two images of one scene, of unknown calibration; named after the files.
 ImageSet SinglePair(const std::filesystem::path& a, const std::filesystem::path& b);
 

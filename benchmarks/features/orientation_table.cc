@@ -57,8 +57,7 @@ void AppendErrors(const GrayImage& image, std::span<const LiftKeypoint> found, d
 
 double PercentBelow(const std::vector<float>& errors, float limit) {
   const auto count = std::ranges::count_if(errors, [=](float error) { return error < limit; });
-  return 100.0 * static_cast<double>(count) /
-         static_cast<double>(std::max<std::size_t>(1, errors.size()));
+  return 100.0 * static_cast<double>(count) / static_cast<double>(errors.size());
 }
 
 std::string Cell(const ImageSet& set, double turn_deg, LiftNetworks& networks) {
@@ -68,13 +67,15 @@ std::string Cell(const ImageSet& set, double turn_deg, LiftNetworks& networks) {
     found.resize(std::min(found.size(), kKeypointsPerImage));
     AppendErrors(image, found, turn_deg, networks, errors);
   }
+  if (errors.empty()) return "-";
   return fmt::format("{:.1f} ({:.0f}, {:.0f})", Quantile(errors, 0.5), PercentBelow(errors, 10.0F),
                      PercentBelow(errors, 20.0F));
 }
 
 }  // namespace
 
-std::string OrientationTable(std::span<const NamedWeights> all, std::span<const ImageSet> sets) {
+std::string OrientationTable(std::span<const NamedWeights> all, std::span<const ImageSet> sets,
+                             const QualityOptions& options) {
   std::vector<std::string> names{"median error, degrees (below 10, 20: %)"};
   for (const ImageSet& set : sets) {
     for (const double turn : kTurnsDeg) names.push_back(fmt::format("{}, {:g}°", set.name, turn));
@@ -82,7 +83,7 @@ std::string OrientationTable(std::span<const NamedWeights> all, std::span<const 
   std::string table = Header(names);
   for (const auto& [name, weights] : all) {
     if (!weights.orientation) continue;
-    LiftNetworks networks(weights, {.num_threads = 2});
+    LiftNetworks networks(weights, {.num_threads = options.num_threads});
     std::vector<std::string> cells{name};
     for (const ImageSet& set : sets) {
       for (const double turn : kTurnsDeg) cells.push_back(Cell(set, turn, networks));

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "benchmarks/features/extractor_variants.h"
 #include "benchmarks/features/markdown_table.h"
@@ -61,9 +62,11 @@ std::string InlierRow(const std::string& name, std::span<const ImageSet> sets,
 }
 
 std::string DistanceCell(const DistanceSamples& samples) {
-  return fmt::format("{:.2f} / {:.1f}", 100.0 * FalsePositiveRateAt95(samples),
+  const std::optional<double> rate = FalsePositiveRateAt95(samples);
+  if (!rate) return "-";
+  return fmt::format("{:.2f} / {:.1f}", 100.0 * *rate,
                      100.0 * static_cast<double>(samples.num_nearest_is_right) /
-                         static_cast<double>(std::max<std::size_t>(1, samples.matching.size())));
+                         static_cast<double>(samples.matching.size()));
 }
 
 constexpr int kPairsPerImage = 300;  // of keypoints
@@ -191,13 +194,15 @@ std::string MatchingTable(std::span<const NamedWeights> all, std::span<const Ima
   return table;
 }
 
-std::string RepeatabilityTable(std::span<const NamedWeights> all, std::span<const ImageSet> sets) {
+std::string RepeatabilityTable(std::span<const NamedWeights> all, std::span<const ImageSet> sets,
+                               const QualityOptions& options) {
   std::vector<std::string> names{"found again within 3 px"};
   for (const ImageSet& set : sets) {
     for (const WarpKind& kind : kWarpKinds) names.push_back(set.name + ", " + kind.name);
   }
   std::string table = Header(names);
-  const QualityOptions many{.max_features = 500};
+  QualityOptions many = options;
+  many.max_features = 500;
   for (const char* name : {"ORB", "SIFT"}) {
     table += RepeatabilityRow(name, sets, FinderOf(Baseline(name, many)()));
   }

@@ -25,7 +25,7 @@ struct QualityOptions {
 };
 
 // Descriptors on SIFT's keypoints and verified matches: false positives at 95 % recall among all
-// wrong pairs, and the share whose nearest is the right one.
+// wrong pairs, and the share whose nearest is the right one; "-" without such pairs.
 std::string DescriptorTable(std::span<const NamedWeights> all, std::span<const ImageSet> sets,
                             const QualityOptions& options);
 
@@ -35,8 +35,9 @@ std::string MatchingTable(std::span<const NamedWeights> all, std::span<const Ima
                           const QualityOptions& options);
 
 // The share of the 500 best keypoints that are found again within 3 pixels in a warped copy, of
-// those within it; with ORB and SIFT.
-std::string RepeatabilityTable(std::span<const NamedWeights> all, std::span<const ImageSet> sets);
+// those within it; with ORB and SIFT. `options.max_features` does not count.
+std::string RepeatabilityTable(std::span<const NamedWeights> all, std::span<const ImageSet> sets,
+                               const QualityOptions& options);
 
 // Matching with other choices of keypoints: candidate_ratio, first level, levels of the maximum.
 std::string KeypointChoiceTable(const NamedWeights& weights, std::span<const ImageSet> sets,

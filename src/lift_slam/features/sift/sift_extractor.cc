@@ -6,6 +6,7 @@
 #include <numbers>
 #include <opencv2/features2d.hpp>
 
+#include "lift_slam/features/sift/sift_position.h"
 #include "lift_slam/util/option_range.h"
 
 namespace lift_slam {
@@ -13,16 +14,13 @@ namespace {
 
 constexpr int kLevelsPerOctave = 12;
 constexpr int kNumLevels = 10 * kLevelsPerOctave;
-// OpenCV (before 4.8) doubles the image about pixel centres, but halves the positions about the
-// image's corner.
-constexpr float kHalvingOffset = -0.25F;
 
 Keypoint FromOpenCv(const cv::KeyPoint& found) {
   const double sigma = std::max(1.0, 0.5 * static_cast<double>(found.size));
   const double angle_deg = found.angle > 180.0F ? found.angle - 360.0F : found.angle;
   const auto level = static_cast<int>(std::lround(kLevelsPerOctave * std::log2(sigma)));
-  return {.x = found.pt.x + kHalvingOffset,
-          .y = found.pt.y + kHalvingOffset,
+  return {.x = found.pt.x + kSiftPositionOffsetPx,
+          .y = found.pt.y + kSiftPositionOffsetPx,
           .angle_rad = static_cast<float>(angle_deg * std::numbers::pi / 180.0),
           .response = found.response,
           .level = std::min(level, kNumLevels - 1)};

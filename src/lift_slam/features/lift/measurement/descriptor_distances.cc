@@ -74,8 +74,8 @@ float Quantile(std::vector<float> samples, double share) {
   return *at + static_cast<float>(place - static_cast<double>(below)) * (above - *at);
 }
 
-double FalsePositiveRateAt95(const DistanceSamples& samples) {
-  if (samples.wrong.empty()) return 0.0;
+std::optional<double> FalsePositiveRateAt95(const DistanceSamples& samples) {
+  if (samples.matching.empty() || samples.wrong.empty()) return {};
   const float limit = Quantile(samples.matching, 0.95);
   const auto num_near =
       std::ranges::count_if(samples.wrong, [&](float distance) { return distance <= limit; });

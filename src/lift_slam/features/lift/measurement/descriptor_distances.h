@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,8 +30,9 @@ void AppendDistances(const KeypointPairs& pairs, std::span<const float> a, std::
 // Interpolated between the order statistics; `share` in [0, 1]. 0 without samples.
 float Quantile(std::vector<float> samples, double share);
 
-// The share of wrong pairs that are as near as 95 % of the matching ones.
-double FalsePositiveRateAt95(const DistanceSamples& samples);
+// The share of wrong pairs that are as near as 95 % of the matching ones; nothing without pairs of
+// both kinds.
+std::optional<double> FalsePositiveRateAt95(const DistanceSamples& samples);
 
 // Of matching and nearest wrong distances.
 DistanceQuantiles Quantiles(const DistanceSamples& samples);

@@ -102,7 +102,14 @@ TEST(FalsePositiveRateAt95, CountsWrongPairsWithinTheLimit) {
   DistanceSamples samples;
   for (int i = 0; i <= 100; ++i) samples.matching.push_back(static_cast<float>(i));  // limit 95
   for (int i = 0; i < 10; ++i) samples.wrong.push_back(static_cast<float>(90 + 2 * i));
-  EXPECT_DOUBLE_EQ(FalsePositiveRateAt95(samples), 0.3);
+  EXPECT_DOUBLE_EQ(FalsePositiveRateAt95(samples).value(), 0.3);
+}
+
+TEST(FalsePositiveRateAt95, IsNothingWithoutPairs) {
+  DistanceSamples samples;
+  EXPECT_FALSE(FalsePositiveRateAt95(samples));
+  samples.matching = {1.0F};
+  EXPECT_FALSE(FalsePositiveRateAt95(samples));
 }
 
 TEST(WeightsMeasurement, SameInputGivesTheSameNumbers) {
