@@ -101,8 +101,9 @@ void AddTables(const Arguments& arguments, std::span<const NamedWeights> all, Ta
   if (arguments.Wants("repeatability")) {
     tables.Add("Repeatability", RepeatabilityTable(all, known, quality));
   }
-  if (arguments.Wants("orientation"))
+  if (arguments.Wants("orientation")) {
     tables.Add("Orientation", OrientationTable(all, known, quality));
+  }
   if (arguments.Wants("homography")) {
     tables.Add("Known homographies", HomographyTables(all, known, quality, curves));
   }

@@ -1,7 +1,7 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "benchmarks/features/image_sets.h"
