@@ -72,7 +72,7 @@ PlotSeries Path(const Trajectory& poses, TopView view, std::string label, PlotCo
 // Truth outside the time of every estimate is of frames that were not run.
 void CutToEstimates(const std::vector<PlotSeries>& series, const std::vector<Trajectory>& estimates,
                     BenchmarkTruth& truth) {
-  if (series.empty() || truth.evaluation.association.method == AssociationMethod::kIndex) return;
+  if (series.empty() || truth.by_index) return;
   std::int64_t begin = std::numeric_limits<std::int64_t>::max(), end = 0;
   for (const Trajectory& estimate : estimates) {
     if (estimate.empty()) continue;

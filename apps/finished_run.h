@@ -35,7 +35,7 @@ struct FinishedRun {
   std::string dataset, sequence;             // "kitti", "00"
   std::string configuration;                 // short name for tables of results: "orb"
   std::string config_yaml;                   // effective options
-  Trajectory ground_truth;                   // camera poses, metres; may be empty
+  Trajectory ground_truth;                   // metres; may be empty
   TopView ground_truth_view = TopView::kXY;  // kXZ for KITTI
   Provenance provenance;
   // Further rows of the provenance, shown and stored as they are: {"mode", "sequential"},

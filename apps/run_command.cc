@@ -12,6 +12,7 @@
 #include "apps/output_folder.h"
 #include "apps/run_outputs.h"
 #include "apps/sequence_arguments.h"
+#include "apps/sequence_truth.h"
 #include "apps/slam_run.h"
 #include "lift_slam/datasets/sequence_format.h"
 #include "lift_slam/image/image_threads.h"
@@ -58,18 +59,6 @@ bool IsKitti(SequenceFormat format) {
   return format == SequenceFormat::kKittiOdometry || format == SequenceFormat::kKittiRaw;
 }
 
-EvaluationOptions EvaluationFor(const SequenceInfo& info, EvaluationOptions options) {
-  if (info.ground_truth && options.association.method == AssociationMethod::kAuto) {
-    options.association.method =
-        info.ground_truth->by_index ? AssociationMethod::kIndex : AssociationMethod::kTime;
-  }
-  if (info.format == SequenceFormat::kEuroc) {
-    options.association.max_time_difference_ms =
-        std::min(options.association.max_time_difference_ms, kEurocMaxTimeDifferenceMs);
-  }
-  return options;
-}
-
 std::string ToText(const SelfCalibrationReport& calibration) {
   const auto found = [&] {
     return fmt::format("focal length x {:.4f}, k1 {:+.4f}", calibration.estimate.focal_scale,
@@ -84,13 +73,13 @@ std::string ToText(const SelfCalibrationReport& calibration) {
 
 FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
                      const RunRecord& record, ProgramOptions& options) {
-  const Trajectory truth = info.ground_truth ? info.ground_truth->poses : Trajectory();
-  FinishedRun finished(record, EvaluateRun(record, truth, EvaluationFor(info, options.evaluation)));
+  const SequenceTruth truth = TruthOf(info, options.evaluation);
+  FinishedRun finished(record, EvaluateRun(record, truth.poses, truth.options));
   finished.dataset = FormatName(info.format);
   finished.sequence = info.name;
   finished.configuration = kFeatureTypeNames[static_cast<int>(options.slam.features.type)];
   finished.config_yaml = OptionsToYaml(MakeOptionRoot(options));
-  finished.ground_truth = truth;
+  finished.ground_truth = truth.poses;
   finished.ground_truth_view = IsKitti(info.format) ? TopView::kXZ : TopView::kXY;
   finished.provenance = CollectProvenance(kProgramVersion, kGitRevision, MakeOptionRoot(options));
   finished.settings = {{"mode", std::string(kRunModeNames[static_cast<int>(options.mode)])},
