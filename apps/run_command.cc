@@ -18,6 +18,7 @@
 #include "lift_slam/image/image_threads.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_writer.h"
+#include "lift_slam/util/sha256.h"
 
 namespace lift_slam {
 namespace {
@@ -71,6 +72,15 @@ std::string ToText(const SelfCalibrationReport& calibration) {
   return fmt::format("left as given. {}", Explain(calibration.refusal));
 }
 
+// SHA-256 of all that decides a trajectory but the seed: runs with the same are runs of one thing.
+std::string SettingsSha256(ProgramOptions options, const SequenceOptions& sequence) {
+  options.seed = 0;
+  options.mode = {};
+  options.outputs = {};
+  return Sha256Hex(fmt::format("{}\nframes {}:{}:{}\n", OptionsToYaml(MakeOptionRoot(options)),
+                               sequence.first, sequence.last, sequence.step));
+}
+
 FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
                      const RunRecord& record, ProgramOptions& options) {
   const SequenceTruth truth = TruthOf(info, options.evaluation);
@@ -85,7 +95,8 @@ FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
   finished.settings = {{"mode", std::string(kRunModeNames[static_cast<int>(options.mode)])},
                        {"seed", std::to_string(options.seed)},
                        {"source", arguments.sequence.source},
-                       {"calibration", info.camera->source}};
+                       {"calibration", info.camera->source},
+                       {"settings_sha256", SettingsSha256(options, arguments.sequence.Options())}};
   if (!arguments.distort.empty()) {
     finished.settings.emplace_back("distortion", ToText(Distortions(arguments)));
   }
