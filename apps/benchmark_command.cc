@@ -109,8 +109,8 @@ BenchmarkPlan Plan(const BenchmarkArguments& arguments) {
   return plan;
 }
 
-// Throws CLI::RuntimeError when a run broke or a signal came.
-void Run(const std::vector<BenchmarkJob>& jobs, const BenchmarkArguments& arguments) {
+// How many runs broke. Throws CLI::RuntimeError when a signal came.
+int Run(const std::vector<BenchmarkJob>& jobs, const BenchmarkArguments& arguments) {
   const BatchResult batch =
       RunJobs(jobs, arguments.output, arguments.jobs, arguments.feature_cache);
   std::cout << fmt::format("runs        {} done now, {} were done, {} failed\n", batch.finished,
@@ -120,6 +120,12 @@ void Run(const std::vector<BenchmarkJob>& jobs, const BenchmarkArguments& argume
     std::cout << fmt::format("            why: {}/*/console.txt\n",
                              (arguments.output / "failed").string());
   }
+  return batch.failed;
+}
+
+// Once all that there is has been written.
+void EndWith(int num_failed) {
+  if (num_failed > 0) throw CLI::RuntimeError(kBadInput);
 }
 
 void RunOne(const BenchmarkArguments& arguments) {
@@ -128,7 +134,7 @@ void RunOne(const BenchmarkArguments& arguments) {
   if (!number || *number < 1 || *number > static_cast<std::int64_t>(plan.jobs.size())) {
     throw InputError(fmt::format("run-job: expected a number from 1 to {}", plan.jobs.size()));
   }
-  Run({plan.jobs[static_cast<std::size_t>(*number - 1)]}, arguments);
+  EndWith(Run({plan.jobs[static_cast<std::size_t>(*number - 1)]}, arguments));
 }
 
 void WriteResults(const BenchmarkArguments& arguments) {
@@ -149,8 +155,9 @@ void Benchmark(BenchmarkArguments arguments) {
   arguments.request.suite = arguments.words.back();
   const BenchmarkPlan plan = Plan(arguments);
   if (verb == "plan") return;
-  Run(plan.jobs, arguments);
+  const int num_failed = Run(plan.jobs, arguments);
   Merge(arguments);
+  EndWith(num_failed);
 }
 
 void AddOptions(CLI::App& command, BenchmarkArguments& arguments) {
@@ -208,6 +215,8 @@ void AddBenchmarkCommand(CLI::App& app) {
       "ablation,\n"
       "matching (pairs of images).\n"
       "Runs that are finished are never repeated; a benchmark that was stopped goes on.\n"
+      "Exit codes: 0 done, 1 bad input or a run that broke (the tables of the others are written), "
+      "130 stopped.\n"
       "Examples:\n"
       "  lift_slam benchmark kitti --data ~/kitti --output bench --jobs 2\n"
       "  lift_slam benchmark plan euroc --data ~/euroc --output bench\n"

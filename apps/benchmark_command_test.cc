@@ -77,6 +77,17 @@ TEST_F(BenchmarkCommand, RunsEurocJobByJob) {
                     {"a number from 1 to 2"});
 }
 
+TEST_F(BenchmarkCommand, ARunThatBreaksIsReportedByTheExitCode) {
+  const fs::path sequence = Render(SequenceLayout::kKittiOdometry, 12);
+  fs::remove(sequence / "calib.txt");
+  const std::string arguments = Arguments("kitti", "default_orb") + " --runs 1";
+  const Outcome outcome = RunProgram(arguments);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("0 done now, 0 were done, 1 failed"));
+  EXPECT_THAT(ReadText(output_ / "tables.md"), HasSubstr("| ours, ORB features | ? |"));
+  EXPECT_EQ(RunProgram("benchmark run-job 1 --output " + output_.string()).exit_code, 1);
+}
+
 TEST_F(BenchmarkCommand, GoesOnAfterAKillAndRepeatsNothing) {
   Render(SequenceLayout::kKittiOdometry, 40);
   const std::string arguments = Arguments("kitti") + " --runs 3";
@@ -244,7 +255,9 @@ TEST_F(BenchmarkCommand, ResultsBecomeADocumentThatTheSameResultsGiveAgain) {
                 .exit_code,
             0);
   fs::create_directories(folder_ / "docs/results");
-  WriteTextAtomically(folder_ / "docs/results/old.svg", "<svg/>");
+  for (const char* name : {"kitti_trajectory_07.svg", "drawn_by_hand.svg"}) {
+    WriteTextAtomically(folder_ / "docs/results" / name, "<svg/>");
+  }
   const std::string results = fmt::format("benchmark results --from {} {} --output {}",
                                           output_.string(), matching.string(), document.string());
   const Outcome outcome = RunProgram(results);
@@ -257,7 +270,8 @@ TEST_F(BenchmarkCommand, ResultsBecomeADocumentThatTheSameResultsGiveAgain) {
         "![00](results/kitti_trajectory_00.svg)", "![00](results/matching_skip_00.svg)"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
-  EXPECT_FALSE(fs::exists(folder_ / "docs/results/old.svg"));
+  EXPECT_FALSE(fs::exists(folder_ / "docs/results/kitti_trajectory_07.svg"));
+  EXPECT_TRUE(fs::exists(folder_ / "docs/results/drawn_by_hand.svg"));
   EXPECT_TRUE(fs::is_regular_file(folder_ / "docs/results/kitti_trajectory_00.svg"));
   ASSERT_EQ(RunProgram(results).exit_code, 0);
   EXPECT_EQ(ReadText(document), text);
@@ -268,6 +282,8 @@ TEST_F(BenchmarkCommand, ResultsBecomeADocumentThatTheSameResultsGiveAgain) {
       {"must end in .md"});
   fs::remove_all(output_ / "results");
   ExpectOneSentence(RunProgram(results), {"has no finished run"});
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "docs/results/kitti_trajectory_00.svg"))
+      << "the document from before is still whole";
 }
 
 // Inliers of the mean under a condition, of features on the only sequence of a table.

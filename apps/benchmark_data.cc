@@ -47,7 +47,7 @@ std::string DatasetOf(const fs::path& folder) {
 std::vector<BenchmarkSequence> SearchSequences(const fs::path& folder, int depth) {
   std::vector<BenchmarkSequence> found;
   if (const std::string dataset = DatasetOf(folder); !dataset.empty()) {
-    return {{folder.filename().string(), dataset, folder}};
+    return {{folder.filename().string(), dataset, folder, {}}};
   }
   if (depth == 0) return found;
   std::set<fs::path> below;
@@ -86,13 +86,16 @@ template <class Names>
 void Choose(const Names& names, const std::string& dataset,
             const std::vector<BenchmarkSequence>& found, std::vector<BenchmarkSequence>& chosen) {
   for (const std::string name : names) {
-    BenchmarkSequence sequence{name, dataset, {}};
+    BenchmarkSequence sequence{name, dataset, {}, {}};
     for (const BenchmarkSequence& candidate : found) {
       // EuRoC's folders go on after the number: MH_01_easy.
       const bool fits =
           dataset == "euroc" ? candidate.name.starts_with(name) : candidate.name == name;
-      if (fits && candidate.dataset == dataset && sequence.folder.empty()) {
+      if (!fits || candidate.dataset != dataset) continue;
+      if (sequence.folder.empty()) {
         sequence.folder = candidate.folder;
+      } else if (!fs::equivalent(candidate.folder, sequence.folder)) {
+        sequence.rival = candidate.folder;
       }
     }
     chosen.push_back(sequence);

@@ -11,6 +11,7 @@ struct BenchmarkSequence {
   std::string name;              // "00", "MH_01"
   std::string dataset;           // "kitti" or "euroc": which variant of a preset fits
   std::filesystem::path folder;  // empty: not found
+  std::filesystem::path rival;   // another that fits as well; empty: none
 };
 
 // The suite's sequences in the order of the tables, those that are missing included. Looks below

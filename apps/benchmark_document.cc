@@ -90,10 +90,16 @@ std::string OriginTable(const BenchmarkPlan& plan, const Origin& origin) {
   return text;
 }
 
-// Under its section's heading; files go to `folder`, which the document names `link`.
-std::string Figures(const std::vector<BenchmarkPicture>& pictures, const std::string& prefix,
-                    const fs::path& folder, const std::string& link) {
-  std::string text, section;
+struct Chapter {
+  std::string text;
+  std::map<std::string, std::string> figures;  // file by name
+};
+
+// Under its section's heading; the document names the folder of the files `link`.
+void AddFigures(const std::vector<BenchmarkPicture>& pictures, const std::string& prefix,
+                const std::string& link, Chapter& chapter) {
+  std::string& text = chapter.text;
+  std::string section;
   for (const BenchmarkPicture& picture : pictures) {
     if (picture.section != section) text += fmt::format("### {}\n\n", picture.section);
     section = picture.section;
@@ -103,12 +109,11 @@ std::string Figures(const std::vector<BenchmarkPicture>& pictures, const std::st
                           kMaxFigureBytes / 1000);
       continue;
     }
-    WriteTextAtomically(folder / name, picture.svg_file);
+    chapter.figures[name] = picture.svg_file;
     text += fmt::format("![{}]({}/{})\n\n", picture.title, link, name);
     text +=
         fmt::format("{}{}{}\n\n", picture.title, picture.note.empty() ? "" : ": ", picture.note);
   }
-  return text;
 }
 
 BenchmarkOutcome OutcomeOf(const BenchmarkPlan& plan, const fs::path& folder,
@@ -117,11 +122,24 @@ BenchmarkOutcome OutcomeOf(const BenchmarkPlan& plan, const fs::path& folder,
   return RunsOutcome(plan, ReadBenchmarkRuns(plan, folder), publications);
 }
 
-void RemoveFigures(const fs::path& folder) {
+// Figures are named after their chapter, which begins with its suite.
+bool IsFigure(const fs::path& file) {
+  return file.extension() == ".svg" &&
+         std::ranges::any_of(kBenchmarkSuites, [&](const std::string& suite) {
+           return file.filename().string().starts_with(suite + "_");
+         });
+}
+
+// Instead of those of an earlier document.
+void WriteFigures(const std::map<std::string, std::string>& figures, const fs::path& folder) {
+  CreateFolder(folder);
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".svg") old.push_back(entry.path());
+    const bool is_old =
+        IsFigure(entry.path()) && !figures.contains(entry.path().filename().string());
+    if (is_old) old.push_back(entry.path());
   }
+  for (const auto& [name, svg] : figures) WriteTextAtomically(folder / name, svg);
   for (const fs::path& path : old) fs::remove(path);
 }
 
@@ -136,27 +154,37 @@ std::string ChapterName(const std::string& suite, const fs::path& folder,
   return name;
 }
 
+Chapter MakeChapter(const fs::path& folder, const fs::path& publications, const std::string& link,
+                    std::set<std::string>& taken) {
+  const BenchmarkPlan plan = ReadBenchmarkPlan(folder);
+  const Origin origin = FindOrigin(plan, folder);
+  if (origin.finished == 0) throw InputError(folder.string() + ": has no finished run");
+  const BenchmarkOutcome outcome = OutcomeOf(plan, folder, publications);
+  const std::string name = ChapterName(plan.suite, folder, taken);
+  Chapter chapter;
+  chapter.text =
+      fmt::format("## {}\n\n{}{}", name, outcome.tables.markdown, OriginTable(plan, origin));
+  AddFigures(outcome.pictures, name, link, chapter);
+  return chapter;
+}
+
 }  // namespace
 
 void WriteBenchmarkDocument(const std::vector<fs::path>& folders, const fs::path& publications,
                             const fs::path& file) {
-  const fs::path figures = fs::path(file).replace_extension();
+  const fs::path figures_folder = fs::path(file).replace_extension();
   std::string text =
       "# Results\n\nWritten by `lift_slam benchmark results` from stored results; not to be "
       "edited. "
       "[benchmark.md](benchmark.md) says how they are made and read.\n\n";
-  CreateFolder(figures);
-  RemoveFigures(figures);
+  std::map<std::string, std::string> figures;
   std::set<std::string> taken;
   for (const fs::path& folder : folders) {
-    const BenchmarkPlan plan = ReadBenchmarkPlan(folder);
-    const Origin origin = FindOrigin(plan, folder);
-    if (origin.finished == 0) throw InputError(folder.string() + ": has no finished run");
-    const BenchmarkOutcome outcome = OutcomeOf(plan, folder, publications);
-    const std::string name = ChapterName(plan.suite, folder, taken);
-    text += fmt::format("## {}\n\n{}{}{}", name, outcome.tables.markdown, OriginTable(plan, origin),
-                        Figures(outcome.pictures, name, figures, figures.filename().string()));
+    Chapter chapter = MakeChapter(folder, publications, figures_folder.filename().string(), taken);
+    text += chapter.text;
+    figures.merge(chapter.figures);
   }
+  WriteFigures(figures, figures_folder);
   text.pop_back();  // one line end is enough
   WriteTextAtomically(file, text);
 }

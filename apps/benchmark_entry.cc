@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lift_slam {
 namespace {
 
@@ -14,19 +16,32 @@ std::string Text(const RunStatistics& s, int decimals, CellStatistic statistic) 
 
 }  // namespace
 
+std::string RunsText(const BenchmarkCell& cell) {
+  const int num_ended = static_cast<int>(cell.runs.size());
+  if (num_ended == cell.planned) return fmt::format("{}/{}", cell.NumGood(), cell.planned);
+  return fmt::format("{}/{} of {}", cell.NumGood(), num_ended, cell.planned);
+}
+
+std::string RunMarks(const BenchmarkCell& cell) {
+  const bool has_partial = std::ranges::any_of(
+      cell.runs, [](const BenchmarkRun* run) { return run->status == RunStatus::kPartial; });
+  std::string marks;
+  if (has_partial) marks += fmt::format(" ({:.0f} %)", 100.0 * cell.MeanCoverage());
+  if (cell.NumGood() < cell.planned) marks += fmt::format(" {}", RunsText(cell));
+  return marks;
+}
+
 TableEntry MakeEntry(const BenchmarkCell* cell, bool is_skipped, std::size_t figure,
                      CellStatistic statistic) {
   if (is_skipped) return {"-", {}};
   if (cell == nullptr || cell->runs.empty()) return {"?", {}};
   const RunStatistics s = cell->Statistics(figure);
   const int num_good = cell->NumGood();
-  if (num_good == 0) return {"X", {}};
+  if (num_good == 0) return {cell->HasFailed() ? "X" : "?", {}};
   if (s.num_used == 0) return {"n/a", {}};
-  TableEntry entry{Text(s, kBenchmarkFigures[figure].decimals, statistic), {}};
-  if (statistic == CellStatistic::kRange) return entry;
-  if (s.num_partial > 0) entry.text += fmt::format(" ({:.0f} %)", 100.0 * cell->MeanCoverage());
-  if (num_good < cell->planned) entry.text += fmt::format(" {}/{}", num_good, cell->planned);
-  if (s.num_partial == 0 && num_good == cell->planned) {
+  const std::string marks = RunMarks(*cell);
+  TableEntry entry{Text(s, kBenchmarkFigures[figure].decimals, statistic) + marks, {}};
+  if (statistic != CellStatistic::kRange && marks.empty()) {
     entry.contender = statistic == CellStatistic::kMean ? s.mean : s.median;
   }
   return entry;

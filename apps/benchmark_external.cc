@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "apps/benchmark_truth.h"
+#include "apps/program_options.h"
+#include "apps/sequence_truth.h"
+#include "lift_slam/evaluation/association.h"
 #include "lift_slam/evaluation/evaluate.h"
 #include "lift_slam/evaluation/result_json.h"
 #include "lift_slam/geometry/trajectory_io.h"
+#include "lift_slam/util/config_file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/number_text.h"
 
@@ -19,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Further than this from every frame, a pose is of none.
-constexpr std::int64_t kMaxFrameDistanceNs = 20'000'000;
+constexpr double kMaxFrameDistanceMs = 20.0;
 
 bool IsTrajectoryOf(const fs::path& file, const std::string& sequence) {
   const std::string stem = file.stem().string(), extension = file.extension().string();
@@ -51,49 +56,70 @@ std::vector<fs::path> RunFolders(const fs::path& folder) {
   return folders;
 }
 
-// Poses with a time alone become poses of frames.
-void GiveIndices(const std::vector<std::int64_t>& times_ns, const fs::path& file,
-                 Trajectory& trajectory) {
-  if (times_ns.empty()) {
-    throw InputError(fmt::format(
-        "{}: poses with times, but the sequence has no times.txt to find their frames by",
-        file.string()));
-  }
-  for (TrajectoryPose& pose : trajectory) {
-    auto next = std::ranges::lower_bound(times_ns, pose.timestamp_ns);
-    if (next == times_ns.end() ||
-        (next != times_ns.begin() && pose.timestamp_ns - *(next - 1) < *next - pose.timestamp_ns)) {
-      --next;
-    }
-    const bool is_near = std::abs(*next - pose.timestamp_ns) <= kMaxFrameDistanceNs;
-    pose.frame_index = is_near ? next - times_ns.begin() : -1;
-  }
+// As our own runs of the job are judged.
+SequenceTruth TruthOfJob(const BenchmarkJob& job, const BenchmarkTruth& truth) {
+  ProgramOptions options;
+  ConfigureOptions(job.config, job.overrides, MakeOptionRoot(options));
+  return TruthOf(truth.sequence, options.evaluation);
 }
 
-// Poses outside the part that is run, or of no frame, take no part.
-Trajectory ReadPoses(const fs::path& file, const BenchmarkTruth& truth) {
-  Trajectory poses = ReadTrajectory(file).trajectory;
-  if (truth.evaluation.association.method != AssociationMethod::kIndex) return poses;
+// How poses of a file find their frames: by index as far as they have one, else by time.
+AssociationOptions PairingWithFrames(const Trajectory& poses, const SequenceInfo& sequence,
+                                     AssociationOptions options) {
+  options.interpolate = false;
   const bool has_indices =
       std::ranges::all_of(poses, [](const TrajectoryPose& p) { return p.frame_index >= 0; });
-  if (!has_indices) GiveIndices(truth.frame_times_ns, file, poses);
-  const std::int64_t first = truth.poses.front().frame_index, last = truth.poses.back().frame_index;
-  std::erase_if(poses, [&](const TrajectoryPose& pose) {
-    return pose.frame_index < first || pose.frame_index > last;
-  });
-  return poses;
+  if (options.method != AssociationMethod::kIndex || has_indices) return options;
+  const bool has_times = sequence.format != SequenceFormat::kKittiOdometry ||
+                         fs::is_regular_file(sequence.path / "times.txt");
+  if (!has_times) {
+    throw InputError("poses with times, but the sequence has no times.txt to find their frames by");
+  }
+  options = {};
+  options.method = AssociationMethod::kTime;
+  options.max_time_difference_ms = kMaxFrameDistanceMs;
+  return options;
 }
 
-BenchmarkRun Judge(const fs::path& file, const BenchmarkTruth& truth) {
-  const Trajectory poses = ReadPoses(file, truth);
-  EvaluationOptions options = truth.evaluation;
-  options.estimate_lists_every_frame = false;
-  options.frames_total =
-      static_cast<int>(std::max<std::int64_t>(truth.num_frames, std::ssize(poses)));
+// One entry for each frame that is run, as our own runs have: the nearest pose, each of them at
+// most once, or none.
+Trajectory PosesOfFrames(const Trajectory& poses, const SequenceInfo& sequence,
+                         const AssociationOptions& judged_by) {
+  const AssociationOptions pairing = PairingWithFrames(poses, sequence, judged_by);
+  Trajectory entries;
+  for (const FrameStamp& frame : sequence.frames) {
+    TrajectoryPose& entry = entries.emplace_back();
+    entry.frame_index = frame.frame_index;
+    entry.timestamp_ns = frame.timestamp_ns;
+  }
+  std::ranges::stable_sort(entries, {}, &TrajectoryPose::timestamp_ns);
+  const std::vector<PosePair> pairs = Associate(poses, entries, pairing).pairs;
+  const bool by_time = judged_by.method == AssociationMethod::kTime;
+  for (TrajectoryPose& entry : entries) {
+    entry.state = PoseState::kLost;
+    if (by_time) entry.timestamp_ns -= std::llround(judged_by.offset_s * 1e9);
+  }
+  for (const PosePair& pair : pairs) {
+    TrajectoryPose& entry = entries[pair.reference_index];
+    entry.state = PoseState::kOk;
+    entry.world_from_cam = pair.estimate;
+    if (by_time) entry.timestamp_ns = poses[pair.estimate_index].timestamp_ns;
+  }
+  std::ranges::stable_sort(entries, {}, &TrajectoryPose::timestamp_ns);
+  return entries;
+}
+
+BenchmarkRun Judge(const fs::path& file, const SequenceInfo& sequence, const SequenceTruth& truth) {
+  const Trajectory poses = ReadTrajectory(file).trajectory;
+  EvaluationOptions options = truth.options;
+  options.estimate_lists_every_frame = true;
   try {
-    const EvaluationResult result = Evaluate(poses, truth.poses, options);
+    const EvaluationResult result =
+        Evaluate(PosesOfFrames(poses, sequence, options.association), truth.poses, options);
     BenchmarkRun run = RunFromResult(ToJson(result).dump(), file.string());
     run.aligned = result.aligned_estimate;
+    std::erase_if(run.aligned,
+                  [](const TrajectoryPose& pose) { return pose.state != PoseState::kOk; });
     return run;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
@@ -120,7 +146,7 @@ std::vector<BenchmarkRun> ReadExternalRuns(const std::string& argument, const Be
       if (file.empty()) continue;
       if (!truth) truth = LoadBenchmarkTruth(*job);
       if (!truth || truth->poses.empty()) continue;  // nothing to judge it by
-      runs.push_back(Judge(file, *truth));
+      runs.push_back(Judge(file, truth->sequence, TruthOfJob(*job, *truth)));
       runs.back().title = argument.substr(0, equals);
       runs.back().sequence = sequence;
       runs.back().condition = "none";

@@ -1,10 +1,12 @@
 #include "apps/benchmark_figures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 
+#include "apps/benchmark_entry.h"
 #include "apps/benchmark_truth.h"
 #include "lift_slam/geometry/trajectory_io.h"
 #include "lift_slam/util/file.h"
@@ -72,7 +74,7 @@ PlotSeries Path(const Trajectory& poses, TopView view, std::string label, PlotCo
 // Truth outside the time of every estimate is of frames that were not run.
 void CutToEstimates(const std::vector<PlotSeries>& series, const std::vector<Trajectory>& estimates,
                     BenchmarkTruth& truth) {
-  if (series.empty() || truth.evaluation.association.method == AssociationMethod::kIndex) return;
+  if (series.empty() || truth.by_index) return;
   std::int64_t begin = std::numeric_limits<std::int64_t>::max(), end = 0;
   for (const Trajectory& estimate : estimates) {
     if (estimate.empty()) continue;
@@ -118,14 +120,28 @@ void AddTrajectories(const BenchmarkPlan& plan, const std::vector<BenchmarkRun>&
                                  sequence, std::move(note), plot));
 }
 
-// Mean over the runs; failed when none succeeded.
+// Mean over the runs; failed when all have ended and none succeeded.
 double ConditionValue(const BenchmarkCells& cells, const std::string& title,
                       const std::string& column) {
   const auto found = cells.find({title, column});
   if (found == cells.end() || found->second.runs.empty()) return DotSeries::kNone;
-  if (found->second.NumGood() == 0) return DotSeries::kFailed;
+  if (found->second.HasFailed()) return DotSeries::kFailed;
   const RunStatistics statistics = found->second.Statistics(0);
   return statistics.num_used == 0 ? DotSeries::kNone : statistics.mean;
+}
+
+// Adds a dot's name when it is not of all runs with all frames.
+void AddMarks(const BenchmarkCells& cells, const std::string& title, const std::string& column,
+              const std::string& name, std::vector<std::string>& marked) {
+  const auto found = cells.find({title, column});
+  if (found == cells.end() || found->second.NumGood() == 0) return;
+  const std::string marks = RunMarks(found->second);
+  if (!marks.empty()) marked.push_back(name + marks);
+}
+
+std::string MarksNote(const std::vector<std::string>& marked) {
+  if (marked.empty()) return {};
+  return fmt::format("Of a part of the runs or frames: {}.", fmt::join(marked, "; "));
 }
 
 void AddConditions(const BenchmarkPlan& plan, const BenchmarkCells& cells,
@@ -135,11 +151,14 @@ void AddConditions(const BenchmarkPlan& plan, const BenchmarkCells& cells,
   chart.axis.label = "ATE RMSE, mean of the runs [m]";
   chart.categories = plan.conditions;
   bool has_value = false;
+  std::vector<std::string> marked;
   for (const std::string& title : plan.titles) {
     DotSeries series{title, ColorOf(plan, title), {}};
     bool is_known = false;
     for (const std::string& condition : plan.conditions) {
-      series.values.push_back(ConditionValue(cells, title, ColumnKey(sequence, condition)));
+      const std::string column = ColumnKey(sequence, condition);
+      series.values.push_back(ConditionValue(cells, title, column));
+      AddMarks(cells, title, column, title + ", " + condition, marked);
       is_known = is_known || !std::isnan(series.values.back());
     }
     if (is_known) chart.series.push_back(std::move(series));
@@ -147,7 +166,8 @@ void AddConditions(const BenchmarkPlan& plan, const BenchmarkCells& cells,
   }
   if (!has_value) return;
   std::ranges::replace(chart.categories, "none", "undistorted");
-  pictures.push_back(MakePicture("ATE by condition", "ate_" + sequence, sequence, "", chart));
+  pictures.push_back(
+      MakePicture("ATE by condition", "ate_" + sequence, sequence, MarksNote(marked), chart));
 }
 
 // Variants one under another: median of the runs, and a bar from the least to the largest.
@@ -159,7 +179,9 @@ void AddVariants(const BenchmarkPlan& plan, const BenchmarkCells& cells, const s
   chart.categories = plan.titles;
   chart.width_px = 720;
   DotSeries series{"median", PlotColor::kBlue, {}};
+  std::vector<std::string> marked;
   for (const std::string& title : plan.titles) {
+    AddMarks(cells, title, column, title, marked);
     const double mean = ConditionValue(cells, title, column);
     const auto found = cells.find({title, column});
     const RunStatistics s =
@@ -170,8 +192,10 @@ void AddVariants(const BenchmarkPlan& plan, const BenchmarkCells& cells, const s
   }
   if (std::ranges::all_of(series.values, [](double value) { return std::isnan(value); })) return;
   chart.series = {std::move(series)};
-  pictures.push_back(MakePicture("ATE of each variant", "ate_" + column, column,
-                                 "Median of the runs; bar: least to largest.", chart));
+  std::string note = "Median of the runs; bar: least to largest.";
+  if (!marked.empty()) note += fmt::format(" {}", MarksNote(marked));
+  pictures.push_back(
+      MakePicture("ATE of each variant", "ate_" + column, column, std::move(note), chart));
 }
 
 // Columns of frames.csv by name.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "apps/benchmark_data.h"
 #include "apps/build_info.h"
@@ -23,10 +24,41 @@ struct Features {
   std::string weights_hash;
 };
 
+// The files, each once.
+std::vector<fs::path> WeightFiles(const BenchmarkRequest& request) {
+  std::vector<fs::path> files;
+  for (const fs::path& weights : request.weights) {
+    if (!fs::is_regular_file(weights)) {
+      throw InputError(fmt::format("--weights '{}': no such file", weights.string()));
+    }
+    const fs::path file = fs::canonical(weights);
+    if (std::ranges::find(files, file) == files.end()) files.push_back(file);
+  }
+  return files;
+}
+
+// "LIFT (mine)"; of files that share a name with their folders: "LIFT (run_a/weights)". Tables tell
+// features apart by their titles.
+std::vector<std::string> TitlesOf(const std::vector<fs::path>& files) {
+  std::map<std::string, int> counts;
+  for (const fs::path& file : files) ++counts[file.stem().string()];
+  std::vector<std::string> titles;
+  for (const fs::path& file : files) {
+    const fs::path stem = file.stem();
+    const fs::path name = counts[stem.string()] > 1 ? file.parent_path().filename() / stem : stem;
+    titles.push_back(fmt::format("LIFT ({})", name.string()));
+    if (std::ranges::count(titles, titles.back()) == 1) continue;
+    throw InputError(fmt::format(
+        "--weights: two files would both be '{}' in the tables: rename one of them or its folder",
+        titles.back()));
+  }
+  return titles;
+}
+
 std::vector<Features> ChosenFeatures(const BenchmarkRequest& request) {
   std::vector<Features> chosen;
-  const auto names =
-      request.systems.empty() ? std::vector<std::string>{"orb", "sift", "lift"} : request.systems;
+  const auto names = request.systems.empty() ? std::vector<std::string>{"orb", "sift", "lift"}
+                                             : WithoutRepeats(request.systems);
   for (const std::string& name : names) {
     if (name == "orb") chosen.push_back({name, "ORB", {}, {}});
     if (name == "sift") chosen.push_back({name, "SIFT", {}, {}});
@@ -36,9 +68,10 @@ std::vector<Features> ChosenFeatures(const BenchmarkRequest& request) {
     if (name == "orb" || name == "sift" || name == "lift") continue;
     throw InputError(fmt::format("--systems '{}': matching compares orb, sift and lift", name));
   }
-  for (const fs::path& weights : request.weights) {
-    chosen.push_back({"lift", "LIFT (" + weights.stem().string() + ")", fs::absolute(weights),
-                      Sha256Hex(ReadText(weights))});
+  const std::vector<fs::path> files = WeightFiles(request);
+  const std::vector<std::string> titles = TitlesOf(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    chosen.push_back({"lift", titles[i], files[i], Sha256Hex(ReadText(files[i]))});
   }
   return chosen;
 }
@@ -81,7 +114,7 @@ BenchmarkPlan MakeMatchingPlan(const BenchmarkRequest& request) {
     plan.titles.push_back(features.title);
     const fs::path file = features.weights.empty() ? DefaultLiftWeights() : features.weights;
     if (features.name == "lift") {
-      plan.hashes["weights " + file.filename().string()] = features.weights_hash;
+      plan.hashes[WeightsKey(file, features.title)] = features.weights_hash;
     }
   }
   for (const BenchmarkSequence& sequence : ChosenSequences(request)) {

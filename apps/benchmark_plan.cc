@@ -13,6 +13,7 @@
 #include "apps/benchmark_variants.h"
 #include "apps/build_info.h"
 #include "apps/program_options.h"
+#include "apps/vocabulary_choice.h"
 #include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/image/image_distortion.h"
 #include "lift_slam/util/config_file.h"
@@ -55,7 +56,7 @@ std::vector<std::string> Conditions(const BenchmarkRequest& request) {
   for (std::string& condition : conditions) {
     if (condition != "none") condition = ToText(ParseImageDistortions(condition));
   }
-  return conditions;
+  return WithoutRepeats(conditions);  // gamma=2 and gamma=2.0 are one
 }
 
 bool Contains(const std::vector<std::string>& values, const std::string& value) {
@@ -71,9 +72,30 @@ fs::path FindWeights(const fs::path& named, const fs::path& config) {
   return {};
 }
 
+// Whether a word of a system's "# skip:" means the sequence: MH_04 is MH_04_difficult too. A name
+// for the tables may differ from the folder's (kitti/sequences/00 is "kitti" beside others of that
+// number), and rendered tracks are no sequence of KITTI, though they lie in such folders.
+bool IsTrainedWith(const BenchmarkSystem& system, const BenchmarkSequence& sequence) {
+  const bool is_rendered = fs::exists(sequence.folder.parent_path().parent_path() / "render.yaml");
+  const std::string folder = is_rendered ? "" : sequence.folder.filename().string();
+  return std::ranges::any_of(system.skipped_sequences, [&](const std::string& word) {
+    const auto is_meant = [&](const std::string& name) {
+      return name == word || name.starts_with(word + "_");
+    };
+    return is_meant(sequence.name) || is_meant(folder);
+  });
+}
+
 std::string WhereFrom(const std::string& dataset) {
   return dataset == "kitti" ? "KITTI odometry, grayscale images and ground truth poses"
                             : "EuRoC MAV, ASL dataset format";
+}
+
+// The published sequence is one of them, and nothing tells which.
+void CheckIsTheOnlyOne(const BenchmarkSequence& sequence) {
+  if (sequence.rival.empty()) return;
+  throw InputError(fmt::format("--data: both {} and {} may be sequence {}: give a narrower folder",
+                               sequence.folder.string(), sequence.rival.string(), sequence.name));
 }
 
 class PlanMaker {
@@ -102,7 +124,7 @@ class PlanMaker {
 
  private:
   std::vector<std::string> SystemNames() const {
-    if (!variants_ || !request_.systems.empty()) return Systems(request_);
+    if (!variants_ || !request_.systems.empty()) return WithoutRepeats(Systems(request_));
     std::vector<std::string> names;
     for (const BenchmarkVariant& variant : variants_->variants) names.push_back(variant.name);
     return names;
@@ -130,7 +152,7 @@ class PlanMaker {
     const BenchmarkSystem system = FindSystem(name, sequence.dataset);
     AddTitle(system);
     if (sequence.folder.empty()) return;
-    if (Contains(system.skipped_sequences, sequence.name)) {
+    if (IsTrainedWith(system, sequence)) {
       plan_.skipped.push_back(system.title + "|" + sequence.name);
       return;
     }
@@ -163,7 +185,8 @@ class PlanMaker {
   void AddJobs(const BenchmarkSystem& system, const BenchmarkSequence& sequence,
                ProgramOptions& options, const fs::path& weights) {
     const bool is_lift = options.slam.features.type == FeatureType::kLift;
-    const std::string lift_hash = is_lift ? WeightsHash(weights) : "";
+    const std::string lift_hash = is_lift ? WeightsHash(weights, system.title) : "";
+    const std::string vocabulary_hash = VocabularyHash(options.slam.loop_closing);
     plan_.hashes["sequence " + sequence.name] = IdentityOf(sequence.folder);
     for (const std::string& condition : plan_.conditions) {
       for (int seed = 0; seed < request_.runs; ++seed) {
@@ -180,8 +203,9 @@ class PlanMaker {
                          0,
                          ""};
         const std::string identity = fmt::format(
-            "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", OptionsToYaml(MakeOptionRoot(options)), lift_hash,
-            program_, job.sequence, IdentityOf(job.source), job.distortion, job.frames, seed,
+            "{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", OptionsToYaml(MakeOptionRoot(options)),
+            lift_hash, vocabulary_hash, program_, job.sequence, IdentityOf(job.source),
+            job.distortion, job.frames, seed,
             job.system);  // two systems alike still have a folder each
         job.hash = Sha256Hex(identity).substr(0, 16);
         plan_.jobs.push_back(job);
@@ -195,12 +219,23 @@ class PlanMaker {
     return identity;
   }
 
-  const std::string& WeightsHash(const fs::path& weights) {
-    std::string& hash = weight_hashes_[weights];
-    if (!hash.empty()) return hash;
+  const std::string& WeightsHash(const fs::path& weights, const std::string& title) {
     const fs::path file = weights.empty() ? DefaultLiftWeights() : weights;
-    hash = Sha256Hex(ReadText(file));
-    plan_.hashes["weights " + file.filename().string()] = hash;
+    const std::string& hash = HashOf(file);
+    plan_.hashes[WeightsKey(file, title)] = hash;
+    return hash;
+  }
+
+  // Of all that a run may choose from; empty without loop closing.
+  std::string VocabularyHash(const LoopClosingOptions& options) {
+    std::string hashes;
+    for (const fs::path& file : VocabularyFiles(options)) hashes += HashOf(file);
+    return hashes;
+  }
+
+  const std::string& HashOf(const fs::path& file) {
+    std::string& hash = file_hashes_[file];
+    if (hash.empty()) hash = Sha256Hex(ReadText(file));
     return hash;
   }
 
@@ -209,7 +244,7 @@ class PlanMaker {
   std::map<std::string, std::string> name_of_title_;
   BenchmarkPlan plan_;
   const std::string program_ = ProgramIdentity();
-  std::map<fs::path, std::string> weight_hashes_, sequence_identities_;
+  std::map<fs::path, std::string> file_hashes_, sequence_identities_;
 };
 
 Json ToJson(const BenchmarkJob& job) {
@@ -246,6 +281,18 @@ BenchmarkJob JobFromJson(const Json& json) {
 
 }  // namespace
 
+std::vector<std::string> WithoutRepeats(const std::vector<std::string>& values) {
+  std::vector<std::string> different;
+  for (const std::string& value : values) {
+    if (!Contains(different, value)) different.push_back(value);
+  }
+  return different;
+}
+
+std::string WeightsKey(const fs::path& file, const std::string& title) {
+  return fmt::format("weights {} of {}", file.filename().string(), title);
+}
+
 std::vector<BenchmarkSequence> ChosenSequences(const BenchmarkRequest& request) {
   auto sequences = FindBenchmarkSequences(request.suite, request.data);
   std::vector<BenchmarkSequence> others;
@@ -265,6 +312,7 @@ std::vector<BenchmarkSequence> ChosenSequences(const BenchmarkRequest& request) 
   std::erase_if(sequences, [&](const BenchmarkSequence& sequence) {
     return !request.sequences.empty() && !Contains(request.sequences, sequence.name);
   });
+  for (const BenchmarkSequence& sequence : sequences) CheckIsTheOnlyOne(sequence);
   return sequences;
 }
 

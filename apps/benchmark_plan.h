@@ -36,8 +36,8 @@ struct BenchmarkJob {
   std::vector<std::string> overrides;
   std::string frames;
   int pairs = 0;  // of images to match; 0: a run
-  // SHA-256 of settings, weights, program, content of the sequence, part of it, seed and
-  // distortion, 16 digits: the name of the folder of results.
+  // SHA-256 of settings, weights, vocabulary, program, content of the sequence, part of it, seed
+  // and distortion, 16 digits: the name of the folder of results.
   std::string hash;
 
   std::string Condition() const { return distortion.empty() ? "none" : distortion; }
@@ -51,15 +51,21 @@ struct BenchmarkPlan {
   // "TITLE|SEQUENCE" that a preset leaves out, since it was trained with the sequence.
   std::vector<std::string> skipped;
   std::vector<std::string> missing;  // sentences: sequences and weights that are not there
-  // SHA-256 of the sequences' content and of weights, by "sequence 00", "weights lift.safetensors".
+  // SHA-256 of the sequences' content and of weights, by "sequence 00" and WeightsKey.
   std::map<std::string, std::string> hashes;
 };
 
 inline constexpr const char* kBenchmarkSuites[] = {
     "kitti", "euroc", "rendered", "shared", "robustness", "thresholds", "ablation", "matching"};
 
+// The values in their order, each once.
+std::vector<std::string> WithoutRepeats(const std::vector<std::string>& values);
+
+// "weights lift.safetensors of LIFT-SLAM": two systems may have files of one name.
+std::string WeightsKey(const std::filesystem::path& file, const std::string& title);
+
 // Those of the suite that the request does not leave out, missing ones included. Throws InputError
-// for a name that the suite has not.
+// for a name that the suite has not, and for a sequence that two folders may be.
 std::vector<BenchmarkSequence> ChosenSequences(const BenchmarkRequest& request);
 
 // Throws InputError for an unknown suite, system or distortion, and when nothing can be run.

@@ -20,7 +20,7 @@ TEST_F(BenchmarkCommand, ASuiteTakesOtherSequencesThatAreNamed) {
   const Outcome tables = RunProgram("benchmark merge --output " + output_.string());
   EXPECT_EQ(tables.exit_code, 0) << tables.output;
   EXPECT_THAT(tables.output, Not(HasSubstr("LIFT-SLAM paper, Table 4")));
-  EXPECT_THAT(tables.output, HasSubstr("ours, ORB features | 0/1 | ? | ? |"));
+  EXPECT_THAT(tables.output, HasSubstr("ours, ORB features | 0/0 of 1 | ? | ? |"));
 }
 
 TEST_F(BenchmarkCommand, MissingWeightsAreListedWithTheirMaking) {
@@ -71,10 +71,88 @@ TEST_F(BenchmarkCommand, SequencesOfOneNameAreToldApart) {
   EXPECT_THAT(plan, HasSubstr("\"sequence\": \"hills\""));
 }
 
+TEST_F(BenchmarkCommand, ASequenceThatTwoFoldersMayBeIsRefused) {
+  const fs::path first = Render(SequenceLayout::kKittiOdometry, 4);
+  fs::create_directories(folder_ / "data/alpine/sequences");
+  fs::copy(first, folder_ / "data/alpine/sequences/00", fs::copy_options::recursive);
+  fs::copy(first, folder_ / "data/sequences/03", fs::copy_options::recursive);
+  const std::string plan = Arguments("plan kitti", "orb_slam") + " --runs 1";
+  ExpectOneSentence(RunProgram(plan), {"data/alpine/sequences/00 and ", "data/sequences/00 may be",
+                                       "sequence 00", "narrower folder"});
+  EXPECT_EQ(RunProgram(plan + " --sequences 03").exit_code, 0) << "the other is not asked for";
+}
+
 TEST_F(BenchmarkCommand, TwoSystemsOfOneTitleAreRefused) {
   Render(SequenceLayout::kKittiOdometry, 12);
   ExpectOneSentence(RunProgram(Arguments("shared", "lift_slam.kitti lift_slam.euroc")),
                     {"lift_slam.euroc.yaml", "have the title 'LIFT-SLAM'", "# title:"});
+}
+
+TEST_F(BenchmarkCommand, SequencesOfTheTrainingAreLeftOutWhateverTheyAreCalled) {
+  const fs::path first = Render(SequenceLayout::kKittiOdometry, 4), tracks = folder_ / "tracks";
+  for (const char* folder : {"real/sequences/00", "rendered/sequences/00", "MH_04_difficult"}) {
+    fs::create_directories((tracks / folder).parent_path());
+    fs::copy(first, tracks / folder, fs::copy_options::recursive);
+  }
+  WriteTextAtomically(tracks / "rendered/render.yaml", "# as `lift_slam render` leaves it\n");
+  const fs::path system = folder_ / "tuned.yaml";
+  WriteTextAtomically(system, "# title: Tuned\n# skip: 00 MH_04\nseed: 0\n");
+  const Outcome outcome =
+      RunProgram(fmt::format("benchmark plan shared --data {} --output {} --runs 1 --systems {}",
+                             tracks.string(), output_.string(), system.string()));
+  EXPECT_THAT(outcome.output, HasSubstr("plan        1 runs"));
+  const std::string plan = ReadText(output_ / "plan.json");
+  EXPECT_THAT(plan, HasSubstr("\"sequence\": \"rendered\""));
+  EXPECT_THAT(plan, HasSubstr("\"Tuned|real\""));
+  EXPECT_THAT(plan, HasSubstr("\"Tuned|MH_04_difficult\""));
+}
+
+TEST_F(BenchmarkCommand, ARebuiltVocabularyAsksForNewRuns) {
+  Render(SequenceLayout::kKittiOdometry, 4);
+  const fs::path folder = folder_ / "words", file = folder / "orb.vocabulary";
+  fs::create_directories(folder);
+  const auto plan_with = [&](const char* words, const std::string& arguments) {
+    WriteTextAtomically(file, words);
+    const Outcome outcome =
+        RunProgram(Arguments("plan kitti", "default_orb") + " --runs 1 " + arguments,
+                   "LIFT_SLAM_VOCABULARY_DIR=" + folder.string() + " ");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return ReadText(output_ / "plan.json");
+  };
+  const std::string named = "--set slam.loop_closing.vocabulary=" + file.string();
+  const std::string without_loops = "--set slam.loop_closing.enabled=false";
+  EXPECT_NE(plan_with("old", ""), plan_with("new", ""));
+  EXPECT_NE(plan_with("old", named), plan_with("new", named));
+  EXPECT_EQ(plan_with("old", without_loops), plan_with("new", without_loops));
+}
+
+TEST_F(BenchmarkCommand, WhatIsAskedForTwiceIsRunOnce) {
+  Render(SequenceLayout::kKittiOdometry, 4);
+  const Outcome outcome = RunProgram(Arguments("plan kitti", "default_orb default_orb") +
+                                     " --runs 1 --conditions none gamma=2 gamma=2.0 none");
+  EXPECT_THAT(outcome.output, HasSubstr("plan        2 runs"));
+  EXPECT_THAT(RunProgram(Arguments("plan matching", "orb orb")).output,
+              HasSubstr("plan        1 runs"));
+}
+
+TEST_F(BenchmarkCommand, WeightsOfOneNameAreToldApart) {
+  Render(SequenceLayout::kKittiOdometry, 4);
+  for (const char* folder : {"a", "b", "other/a"}) {
+    fs::create_directories(folder_ / folder);
+    WriteTextAtomically(folder_ / folder / "mine.safetensors", folder);
+  }
+  const std::string plan = Arguments("plan matching", "orb") + " --weights ";
+  const std::string a = (folder_ / "a/mine.safetensors").string();
+  const std::string b = (folder_ / "b/mine.safetensors").string();
+  const Outcome outcome = RunProgram(fmt::format("{}{} {} {}", plan, a, b, a));
+  EXPECT_THAT(outcome.output, HasSubstr("plan        3 runs"));
+  const std::string text = ReadText(output_ / "plan.json");
+  for (const char* title : {"LIFT (a/mine)", "LIFT (b/mine)"}) {
+    EXPECT_THAT(text, HasSubstr(fmt::format("\"title\": \"{}\"", title)));
+    EXPECT_THAT(text, HasSubstr(fmt::format("\"weights mine.safetensors of {}\": ", title)));
+  }
+  ExpectOneSentence(RunProgram(plan + a + " " + (folder_ / "other/a/mine.safetensors").string()),
+                    {"two files would both be 'LIFT (a/mine)'"});
 }
 
 TEST_F(BenchmarkCommand, BadArgumentsAreExplained) {

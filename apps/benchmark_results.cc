@@ -84,6 +84,10 @@ int BenchmarkCell::NumGood() const {
       std::ranges::count_if(runs, [](const auto* run) { return !IsFailure(run->status); }));
 }
 
+bool BenchmarkCell::HasFailed() const {
+  return NumGood() == 0 && !runs.empty() && static_cast<int>(runs.size()) >= planned;
+}
+
 double BenchmarkCell::MeanCoverage() const {
   double sum = 0.0;
   for (const BenchmarkRun* run : runs) sum += run->coverage;

@@ -57,7 +57,8 @@ struct BenchmarkCell {
   int planned = 0;
   std::vector<const BenchmarkRun*> runs;  // that have ended
 
-  int NumGood() const;  // OK or partial
+  int NumGood() const;     // OK or partial
+  bool HasFailed() const;  // all runs have ended, and none is good
   double MeanCoverage() const;
   RunStatistics Statistics(std::size_t figure) const;
 };

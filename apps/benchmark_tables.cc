@@ -138,7 +138,7 @@ ResultTable StatisticsTable(const BenchmarkPlan& plan, const BenchmarkCells& cel
     const RunStatistics s = cell.Statistics(0);
     const std::string none = s.num_runs == 0 ? "?" : "n/a";
     BenchmarkTableRow row{column + ", " + title, {}};
-    row.entries.push_back({fmt::format("{}/{}", cell.NumGood(), cell.planned), {}});
+    row.entries.push_back({RunsText(cell), {}});
     row.entries.push_back(
         {s.num_runs == 0 ? none : fmt::format("{:.1f}", 100.0 * cell.MeanCoverage()), {}});
     for (const double value : {s.mean, s.median, s.min, s.max}) {
@@ -152,11 +152,12 @@ ResultTable StatisticsTable(const BenchmarkPlan& plan, const BenchmarkCells& cel
 std::vector<std::string> Remarks(const BenchmarkPlan& plan, const std::vector<BenchmarkRun>& runs) {
   std::vector<std::string> remarks = {fmt::format(
       "{}evision {}. X: every run failed. -: left out, the system was trained "
-      "with the sequence (ours) or not given (others). ?: not run. n/a: not measured (no ground "
-      "truth, or no stretch of 100 m). (p %): mean coverage where a "
-      "run kept 50 to 90 % of the frames. k/n: runs that succeeded. Bold: best of ours, and of "
-      "trajectories given, where all runs succeeded with at least 90 % of the frames. r_rel of the "
-      "LIFT-SLAM paper is taken as deg/100 m.",
+      "with the sequence (ours) or not given (others). ?: not run, or no run has succeeded yet and "
+      "some are still to be run. n/a: not measured (no ground truth, or no stretch of 100 m). "
+      "(p %): mean coverage where a run kept 50 to 90 % of the frames. k/n: k of n runs succeeded; "
+      "k/n of m: m are planned, n have ended. Bold: best of ours, and of trajectories given, where "
+      "all runs succeeded with at least 90 % of the frames. r_rel of the LIFT-SLAM paper is taken "
+      "as deg/100 m.",
       plan.suite == "ablation" ? "R" : "Means over the runs, r", plan.revision)};
   if (!plan.frames.empty()) {
     remarks.push_back(fmt::format("Only frames {} of each sequence were run.", plan.frames));

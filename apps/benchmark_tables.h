@@ -15,8 +15,9 @@ namespace lift_slam {
 // a row a system, a column a sequence, means over the runs, best of ours in bold (only where all
 // runs kept at least 90 % of the frames), other publications below. With several conditions a row
 // is a sequence and condition and a column a system (the paper's Table 4), best of the row in bold.
-// Last all statistics. Marks: X all runs failed, "-" left out on purpose, "?" not run yet, "(p %)"
-// mean coverage of a row with partial runs, "k/n" runs that succeeded.
+// Last all statistics. Marks: X all runs failed, "-" left out on purpose, "?" not run yet, or not
+// all and none succeeded, "(p %)" mean coverage of a row with partial runs, "k/n" runs that
+// succeeded, "k/n of m" where of m planned ones n have ended.
 struct BenchmarkTables {
   std::string markdown = {}, csv = {}, latex = {}, html = {};  // html: a page, with the pictures
 };

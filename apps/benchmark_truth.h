@@ -1,24 +1,21 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "apps/benchmark_plan.h"
-#include "lift_slam/evaluation/evaluation_options.h"
+#include "lift_slam/datasets/sequence.h"
 #include "lift_slam/geometry/trajectory.h"
 #include "lift_slam/visualization/report_data.h"
 
 namespace lift_slam {
 
-// Ground truth of a benchmark's sequence, cut to the part that is run.
+// A benchmark's sequence with its ground truth.
 struct BenchmarkTruth {
-  Trajectory poses;  // of the camera; empty: there is none
+  SequenceInfo sequence;  // of the part that is run; its ground truth is whole
+  // Of the camera; empty: there is none. Poses by index are those of the part that is run.
+  Trajectory poses;
   TopView view = TopView::kXY;
-  EvaluationOptions evaluation;  // how a trajectory is paired with it
-  std::int64_t num_frames = 0;
-  // Times of the frames by index where the truth has none of its own (KITTI); else empty.
-  std::vector<std::int64_t> frame_times_ns;
+  bool by_index = false;
 };
 
 // Of the sequence of a job. Nothing when the data is not there any more.

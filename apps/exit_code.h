@@ -7,7 +7,8 @@ namespace lift_slam {
 // have been written.
 enum ExitCode : int {
   kDone = 0,           // status OK or PARTIAL
-  kBadInput = 1,       // InputError or a wrong command line: one sentence on stderr
+  kBadInput = 1,       // InputError or a wrong command line: one sentence on stderr; a benchmark's
+                       // run that broke: console.txt says why
   kInternalError = 2,  // a bug, or no memory left
   kNoTrajectory = 3,   // ran, but failed to initialise or was lost
   kStopped = 130,      // a signal ended the work before it was complete; what is there is whole

@@ -35,12 +35,12 @@ struct FinishedRun {
   std::string dataset, sequence;             // "kitti", "00"
   std::string configuration;                 // short name for tables of results: "orb"
   std::string config_yaml;                   // effective options
-  Trajectory ground_truth;                   // camera poses, metres; may be empty
+  Trajectory ground_truth;                   // metres; may be empty
   TopView ground_truth_view = TopView::kXY;  // kXZ for KITTI
   Provenance provenance;
   // Further rows of the provenance, shown and stored as they are: {"mode", "sequential"},
-  // {"seed", "0"}, {"source", path}, {"calibration", file}, {"ground truth", file}, {"weights",
-  // SHA-256}...
+  // {"seed", "0"}, {"settings_sha256", of all but the seed}, {"source", path}, {"calibration",
+  // file}, {"ground truth", file}, {"weights", SHA-256}...
   std::vector<std::pair<std::string, std::string>> settings;
   // Warnings of the readers, shown in the report.
   std::vector<std::string> warnings;

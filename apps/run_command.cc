@@ -12,11 +12,13 @@
 #include "apps/output_folder.h"
 #include "apps/run_outputs.h"
 #include "apps/sequence_arguments.h"
+#include "apps/sequence_truth.h"
 #include "apps/slam_run.h"
 #include "lift_slam/datasets/sequence_format.h"
 #include "lift_slam/image/image_threads.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_writer.h"
+#include "lift_slam/util/sha256.h"
 
 namespace lift_slam {
 namespace {
@@ -58,18 +60,6 @@ bool IsKitti(SequenceFormat format) {
   return format == SequenceFormat::kKittiOdometry || format == SequenceFormat::kKittiRaw;
 }
 
-EvaluationOptions EvaluationFor(const SequenceInfo& info, EvaluationOptions options) {
-  if (info.ground_truth && options.association.method == AssociationMethod::kAuto) {
-    options.association.method =
-        info.ground_truth->by_index ? AssociationMethod::kIndex : AssociationMethod::kTime;
-  }
-  if (info.format == SequenceFormat::kEuroc) {
-    options.association.max_time_difference_ms =
-        std::min(options.association.max_time_difference_ms, kEurocMaxTimeDifferenceMs);
-  }
-  return options;
-}
-
 std::string ToText(const SelfCalibrationReport& calibration) {
   const auto found = [&] {
     return fmt::format("focal length x {:.4f}, k1 {:+.4f}", calibration.estimate.focal_scale,
@@ -82,21 +72,31 @@ std::string ToText(const SelfCalibrationReport& calibration) {
   return fmt::format("left as given. {}", Explain(calibration.refusal));
 }
 
+// SHA-256 of all that decides a trajectory but the seed: runs with the same are runs of one thing.
+std::string SettingsSha256(ProgramOptions options, const SequenceOptions& sequence) {
+  options.seed = 0;
+  options.mode = {};
+  options.outputs = {};
+  return Sha256Hex(fmt::format("{}\nframes {}:{}:{}\n", OptionsToYaml(MakeOptionRoot(options)),
+                               sequence.first, sequence.last, sequence.step));
+}
+
 FinishedRun Conclude(const RunArguments& arguments, const SequenceInfo& info,
                      const RunRecord& record, ProgramOptions& options) {
-  const Trajectory truth = info.ground_truth ? info.ground_truth->poses : Trajectory();
-  FinishedRun finished(record, EvaluateRun(record, truth, EvaluationFor(info, options.evaluation)));
+  const SequenceTruth truth = TruthOf(info, options.evaluation);
+  FinishedRun finished(record, EvaluateRun(record, truth.poses, truth.options));
   finished.dataset = FormatName(info.format);
   finished.sequence = info.name;
   finished.configuration = kFeatureTypeNames[static_cast<int>(options.slam.features.type)];
   finished.config_yaml = OptionsToYaml(MakeOptionRoot(options));
-  finished.ground_truth = truth;
+  finished.ground_truth = truth.poses;
   finished.ground_truth_view = IsKitti(info.format) ? TopView::kXZ : TopView::kXY;
   finished.provenance = CollectProvenance(kProgramVersion, kGitRevision, MakeOptionRoot(options));
   finished.settings = {{"mode", std::string(kRunModeNames[static_cast<int>(options.mode)])},
                        {"seed", std::to_string(options.seed)},
                        {"source", arguments.sequence.source},
-                       {"calibration", info.camera->source}};
+                       {"calibration", info.camera->source},
+                       {"settings_sha256", SettingsSha256(options, arguments.sequence.Options())}};
   if (!arguments.distort.empty()) {
     finished.settings.emplace_back("distortion", ToText(Distortions(arguments)));
   }

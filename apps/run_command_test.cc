@@ -38,6 +38,19 @@ TEST_F(RunCommand, BothModesAndARepeatedRunGiveTheSameBytes) {
   EXPECT_EQ(first, trajectory("--mode threaded --seed 3"));
 }
 
+TEST_F(RunCommand, RunsOfTheSameSettingsAreToldFromOthers) {
+  const fs::path sequence = Render(kTum, 4);
+  const auto settings = [&](const std::string& arguments) {
+    Run(sequence, arguments);
+    const auto json = nlohmann::json::parse(ReadText(output_ / "result.json"));
+    return json.at("provenance").at("settings_sha256").get<std::string>();
+  };
+  const std::string first = settings("");
+  EXPECT_EQ(first, settings("--seed 3 --mode sequential --set outputs.kitti=true"));
+  EXPECT_NE(first, settings("--frames 0:2:1"));
+  EXPECT_NE(first, settings("--set slam.orb.max_features=1500"));
+}
+
 // A compressed video of 930 x 282 pixels over the steepest crest of the track, where features are
 // few.
 TEST_F(RunCommand, TheDemosClipIsNotLostOverItsCrest) {

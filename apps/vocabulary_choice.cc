@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <vector>
 
 #include "lift_slam/place_recognition/vocabulary.h"
 #include "lift_slam/util/input_error.h"
@@ -53,6 +51,12 @@ VocabularyChoice ChooseVocabulary(const LoopClosingOptions& options, const Descr
   return {nullptr, fmt::format("no vocabulary for '{}' features in '{}'; 'lift_slam vocabulary "
                                "build' makes one for --vocabulary",
                                kind.name, folder.string())};
+}
+
+std::vector<fs::path> VocabularyFiles(const LoopClosingOptions& options) {
+  if (!options.enabled) return {};
+  if (!options.vocabulary.empty()) return {options.vocabulary};
+  return VocabulariesIn(VocabularyFolder());
 }
 
 }  // namespace lift_slam

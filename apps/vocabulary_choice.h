@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lift_slam/features/descriptors.h"
 #include "lift_slam/loop_closing/loop_closing_options.h"
@@ -20,5 +22,9 @@ struct VocabularyChoice {
 // vocabularies/, see ShippedFile). Throws InputError for a file that was named, or a folder given
 // by the variable, and does not fit.
 VocabularyChoice ChooseVocabulary(const LoopClosingOptions& options, const DescriptorKind& kind);
+
+// The files that ChooseVocabulary takes one of, whatever the descriptors; none when loop closing is
+// off. Throws InputError for a folder given by the variable that is none.
+std::vector<std::filesystem::path> VocabularyFiles(const LoopClosingOptions& options);
 
 }  // namespace lift_slam

@@ -335,6 +335,11 @@ TEST(FrameRange, SelectsByIndex) {
   const auto frames = ReadAll(*sequence);
   EXPECT_THAT(Indices(frames), ElementsAre(2, 5, 8));
   EXPECT_THAT(TopLeftPixels(frames), ElementsAre(2, 5, 8));
+  ASSERT_EQ(sequence->info().frames.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(sequence->info().frames[i].frame_index, frames[i].frame_index);
+    EXPECT_EQ(sequence->info().frames[i].timestamp_ns, frames[i].timestamp_ns);
+  }
 }
 
 TEST(CameraFileOption, ReplacesTheSequencesOwnCalibration) {

@@ -105,6 +105,10 @@ ImageListSequence::ImageListSequence(SequenceInfo info, std::vector<PlannedFrame
                                      int height)
     : info_(std::move(info)), frames_(std::move(frames)), width_(width), height_(height) {
   info_.num_frames = static_cast<std::int64_t>(frames_.size());
+  info_.frames.reserve(frames_.size());
+  for (const PlannedFrame& frame : frames_) {
+    info_.frames.push_back({frame.image.frame_index, frame.image.timestamp_ns});
+  }
 }
 
 std::optional<SequenceFrame> ImageListSequence::Next() {

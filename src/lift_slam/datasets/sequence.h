@@ -27,6 +27,11 @@ struct SequenceFrame {
   std::string problem_text;  // one sentence that names the file; empty without a problem
 };
 
+// Which frame of a sequence, and when.
+struct FrameStamp {
+  std::int64_t frame_index = 0, timestamp_ns = 0;
+};
+
 struct SequenceInfo {
   std::string name;  // last part of the path
   SequenceFormat format = SequenceFormat::kImageFolder;
@@ -39,6 +44,9 @@ struct SequenceInfo {
   std::optional<Camera> camera;
   std::optional<GroundTruth> ground_truth;
   std::vector<std::string> warnings;  // one sentence each
+  // Of all frames that Next will hand out, in that order. Empty for videos and live cameras, whose
+  // times come with the frames.
+  std::vector<FrameStamp> frames;
 };
 
 // Images in the order of the recording. Not safe for use from two threads at once.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <limits>
 
 #include "lift_slam/evaluation/error_statistics.h"
 #include "lift_slam/evaluation/kitti_error.h"
@@ -86,9 +87,9 @@ void AppendMissing(std::int64_t from_ns, std::int64_t count, double interval_ns,
   }
 }
 
-// `extend_to_reference`: frames the reference covers before the first and after the last pose.
+// As the median interval of the poses says. `frames_total`: of the whole input; 0: not known.
 FrameList InferredFrames(const Trajectory& estimate, const Trajectory& reference,
-                         std::int64_t offset_ns, bool extend_to_reference) {
+                         std::int64_t offset_ns, int frames_total) {
   std::vector<std::int64_t> stamps;
   for (const TrajectoryPose& pose : estimate) {
     if (pose.state == PoseState::kOk) stamps.push_back(pose.timestamp_ns + offset_ns);
@@ -101,24 +102,26 @@ FrameList InferredFrames(const Trajectory& estimate, const Trajectory& reference
     return list;
   }
   const double interval_ns = MedianIntervalNs(stamps);
-  if (extend_to_reference) {
-    const std::int64_t before =
-        WholeIntervals(stamps.front() - reference.front().timestamp_ns, interval_ns);
-    const auto start = stamps.front() - std::llround(static_cast<double>(before + 1) * interval_ns);
-    AppendMissing(start, before, interval_ns, list.frames);
-  }
+  const std::vector<std::int64_t> numbers = FrameNumbers(stamps);
+  // What the reference covers before the first and after the last pose, as far as there are so many
+  // frames.
+  std::int64_t room = frames_total > 0
+                          ? std::max<std::int64_t>(0, frames_total - (numbers.back() + 1))
+                          : std::numeric_limits<std::int64_t>::max();
+  const std::int64_t before =
+      std::min(room, WholeIntervals(stamps.front() - reference.front().timestamp_ns, interval_ns));
+  room -= before;
+  const std::int64_t after =
+      std::min(room, WholeIntervals(reference.back().timestamp_ns - stamps.back(), interval_ns));
+  const auto start = stamps.front() - std::llround(static_cast<double>(before + 1) * interval_ns);
+  AppendMissing(start, before, interval_ns, list.frames);
   for (std::size_t i = 0; i < stamps.size(); ++i) {
-    if (i > 0 && interval_ns > 0.0) {
-      const auto gap = static_cast<double>(stamps[i] - stamps[i - 1]);
-      AppendMissing(stamps[i - 1], std::llround(gap / interval_ns) - 1, interval_ns, list.frames);
+    if (i > 0) {
+      AppendMissing(stamps[i - 1], numbers[i] - numbers[i - 1] - 1, interval_ns, list.frames);
     }
     list.frames.push_back({stamps[i], std::nullopt, true});
   }
-  if (extend_to_reference) {
-    const std::int64_t after =
-        WholeIntervals(reference.back().timestamp_ns - stamps.back(), interval_ns);
-    AppendMissing(stamps.back(), after, interval_ns, list.frames);
-  }
+  AppendMissing(stamps.back(), after, interval_ns, list.frames);
   return list;
 }
 
@@ -214,13 +217,25 @@ FrameList ListFrames(const Trajectory& estimate, const Trajectory& reference,
       static_cast<std::int64_t>(std::llround(options.association.offset_s * 1e9));
   FrameList list = options.estimate_lists_every_frame
                        ? FramesOfEstimate(estimate, offset_ns)
-                       : InferredFrames(estimate, reference, offset_ns, options.frames_total == 0);
+                       : InferredFrames(estimate, reference, offset_ns, options.frames_total);
   if (by_index) {
     LocateByIndex(estimate, reference, list);
   } else {
     LocateByTime(reference, options.association.max_time_difference_ms, list);
   }
   return list;
+}
+
+std::vector<std::int64_t> FrameNumbers(const std::vector<std::int64_t>& stamps_ns) {
+  const double interval_ns = MedianIntervalNs(stamps_ns);
+  if (stamps_ns.empty()) return {};
+  std::vector<std::int64_t> numbers = {0};
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i) {
+    const auto gap = static_cast<double>(stamps_ns[i] - stamps_ns[i - 1]);
+    const std::int64_t steps = interval_ns > 0.0 ? std::llround(gap / interval_ns) : 1;
+    numbers.push_back(numbers.back() + std::max<std::int64_t>(1, steps));
+  }
+  return numbers;
 }
 
 Trajectory WithEveryFrame(const Trajectory& estimate,

@@ -34,6 +34,10 @@ struct FrameList {
 FrameList ListFrames(const Trajectory& estimate, const Trajectory& reference,
                      AssociationMethod method, const EvaluationOptions& options);
 
+// Numbers of frames, from 0 at the first stamp, where only the ascending times of some of them are
+// known: a gap holds as many frames as the median interval fits into it.
+std::vector<std::int64_t> FrameNumbers(const std::vector<std::int64_t>& stamps_ns);
+
 // The estimate with one entry for each frame of the sequence: frames without a pose within half a
 // millisecond become kNotInitialized before the first pose and kLost after it. Throws InputError
 // when a pose belongs to no frame.

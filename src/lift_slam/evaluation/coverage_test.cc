@@ -110,6 +110,27 @@ TEST(Coverage, FileWithTimesAloneInfersTheFramesFromItsRate) {
   EXPECT_THROW(CoverageOf(OkPosesOf(FromStates("+++++"), false), reference, options), InputError);
 }
 
+TEST(Coverage, AKnownNumberOfFramesHidesNeitherStartNorEnd) {
+  EvaluationOptions options;
+  options.estimate_lists_every_frame = false;
+  options.association.method = AssociationMethod::kTime;
+  const Trajectory reference = test::StraightLine(400, 1.0);  // 40 s
+  Trajectory estimate(reference.begin() + 30, reference.begin() + 240);
+  estimate.erase(estimate.begin() + 50, estimate.begin() + 60);
+  options.frames_total = 400;
+  const Coverage coverage = CoverageOf(estimate, reference, options);
+  EXPECT_EQ(coverage.frames_total, 400);
+  EXPECT_EQ(coverage.init_frame, 30);
+  EXPECT_EQ(coverage.lost_events, 2);
+  EXPECT_NEAR(coverage.lost_at_end_s, 16.0, 1e-9);
+  EXPECT_EQ(JudgeRun(coverage, {}), RunStatus::kFailLost);
+  options.frames_total = 250;  // 210 listed, 30 before, so 10 after
+  EXPECT_NEAR(CoverageOf(estimate, reference, options).lost_at_end_s, 1.0, 1e-9);
+  options.frames_total = 220;
+  EXPECT_EQ(CoverageOf(estimate, reference, options).init_frame, 10);
+  EXPECT_EQ(CoverageOf(estimate, reference, options).lost_at_end_s, 0.0);
+}
+
 TEST(Coverage, AStampFarOffIsRefusedInsteadOfFilled) {
   Trajectory estimate = OkPosesOf(FromStates("+++++"), /*keep_index=*/false);
   Trajectory reference = test::StraightLine(5, 1.0);

@@ -56,18 +56,30 @@ Trajectory AlignedTrajectory(Trajectory trajectory, const Sim3d& reference_from_
   return trajectory;
 }
 
-// The number of each pair's frame in the sequence, as far as it is known; else its rank.
-std::vector<std::int64_t> FrameOfPair(const Association& association, bool lists_every_frame) {
+// The number of each entry's frame in the sequence: known, or, where there are times alone, as
+// their gaps say.
+std::vector<std::int64_t> FrameOfEntry(const Trajectory& estimate, const EvaluationResult& result) {
+  const bool lists_every_frame = result.options.estimate_lists_every_frame;
+  const bool by_index = result.association.method == AssociationMethod::kIndex;
+  std::vector<std::int64_t> frames(estimate.size(), -1), stamps_ns;
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    frames[i] = lists_every_frame ? static_cast<std::int64_t>(i) : estimate[i].frame_index;
+    if (estimate[i].state == PoseState::kOk) stamps_ns.push_back(estimate[i].timestamp_ns);
+  }
+  if (lists_every_frame || by_index) return frames;
+  const std::vector<std::int64_t> numbers = FrameNumbers(stamps_ns);
+  auto number = numbers.begin();
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    if (estimate[i].state == PoseState::kOk) frames[i] = *number++;
+  }
+  return frames;
+}
+
+std::vector<std::int64_t> FrameOfPair(const Trajectory& estimate, const EvaluationResult& result) {
+  const std::vector<std::int64_t> frame_of_entry = FrameOfEntry(estimate, result);
   std::vector<std::int64_t> frames;
-  for (std::size_t i = 0; i < association.pairs.size(); ++i) {
-    const PosePair& pair = association.pairs[i];
-    std::size_t frame = i;
-    if (lists_every_frame) {
-      frame = pair.estimate_index;
-    } else if (association.method == AssociationMethod::kIndex) {
-      frame = pair.reference_index;
-    }
-    frames.push_back(static_cast<std::int64_t>(frame));
+  for (const PosePair& pair : result.association.pairs) {
+    frames.push_back(frame_of_entry[pair.estimate_index]);
   }
   return frames;
 }
@@ -88,9 +100,7 @@ void MeasureErrors(const Trajectory& estimate, const Trajectory& reference,
   if (result.association.method == AssociationMethod::kIndex) {
     result.kitti = ComputeKittiError(reference, aligned);
   }
-  result.rpe = ComputeRelativePoseError(
-      aligned, FrameOfPair(result.association, result.options.estimate_lists_every_frame),
-      result.options.rpe);
+  result.rpe = ComputeRelativePoseError(aligned, FrameOfPair(estimate, result), result.options.rpe);
   result.scale_drift = ComputeScaleDrift(aligned);
   result.aligned_estimate = AlignedTrajectory(estimate, *result.reference_from_estimate);
 }

@@ -83,6 +83,33 @@ TEST(Evaluate, AlignFirstIgnoresTheDriftThatFollows) {
   EXPECT_NEAR(result.frame_errors[150].position_m, 5.0, 1e-9);
 }
 
+// Frame by frame without error, but the two pieces do not belong together.
+Trajectory WithGapOfTenSeconds(Trajectory trajectory) {
+  trajectory.erase(trajectory.begin() + 50, trajectory.begin() + 150);
+  for (std::size_t i = 50; i < trajectory.size(); ++i) {
+    trajectory[i].world_from_cam.translation.x() += 5.0;
+  }
+  return trajectory;
+}
+
+TEST(Evaluate, AGapIsNoStepOfTheRelativeError) {
+  Trajectory reference = test::RandomWalk(300, 11);
+  EvaluationOptions options;
+  options.alignment = AlignmentMode::kNone;
+  options.estimate_lists_every_frame = false;
+  for (const AssociationMethod method : {AssociationMethod::kTime, AssociationMethod::kIndex}) {
+    options.association.method = method;
+    const auto rpe = Evaluate(WithGapOfTenSeconds(reference), reference, options).rpe;
+    EXPECT_EQ(rpe->translation_m.count, 198U);  // two pieces of 50 and 150 frames
+    EXPECT_LT(rpe->translation_m.max, 1e-9);
+    // A reference of the same frames: its places in the file do not tell the gap either.
+    const Trajectory part = WithGapOfTenSeconds(reference);
+    Trajectory whole = reference;
+    whole.erase(whole.begin() + 50, whole.begin() + 150);
+    EXPECT_LT(Evaluate(part, whole, options).rpe->translation_m.max, 1e-9);
+  }
+}
+
 TEST(Evaluate, DegenerateAlignmentGivesAReasonAndNoNumber) {
   const Trajectory line = test::StraightLine(1000, 1.0);
   const EvaluationResult result = Evaluate(line, line, {});

@@ -75,7 +75,8 @@ struct EvaluationOptions {
 
   // What the trajectory is, not how it is judged; no part of a configuration file.
   // True: one entry for each input frame, with its state. False: only poses, as from a file; then
-  // the number of frames comes from frames_total or, when that is 0, from the reference.
+  // the frames are those of the reference, or as many as the times of both say. frames_total above
+  // 0 is the number of frames that the coverage is a share of.
   bool estimate_lists_every_frame = true;
   int frames_total = 0;
 

@@ -29,12 +29,16 @@ struct Run {
 
 // What one row of the tables stands for, in the order of the rows.
 struct RowKey {
-  std::string dataset, sequence, configuration, trajectory, gt_frame, alignment;
+  std::string dataset, sequence, configuration, distortion, trajectory, gt_frame, alignment;
+  std::string settings_sha256;  // empty: not known
 
-  auto Tie() const {
-    return std::tie(dataset, sequence, configuration, trajectory, gt_frame, alignment);
+  auto Shown() const {
+    return std::tie(dataset, sequence, configuration, distortion, trajectory, gt_frame, alignment);
   }
-  bool operator<(const RowKey& other) const { return Tie() < other.Tie(); }
+  bool operator<(const RowKey& other) const {
+    return std::tuple_cat(Shown(), std::tie(settings_sha256)) <
+           std::tuple_cat(other.Shown(), std::tie(other.settings_sha256));
+  }
 };
 
 struct Runs {
@@ -128,14 +132,31 @@ Runs ReadRuns(const std::vector<std::filesystem::path>& files) {
   Runs runs;
   for (const std::filesystem::path& file : files) {
     const ResultReader reader(file);
-    RowKey key{reader.TextOrEmpty("/dataset"),       reader.TextOrEmpty("/sequence"),
-               reader.TextOrEmpty("/configuration"), reader.TextOrEmpty("/mode"),
-               reader.TextOrEmpty("/gt_frame"),      reader.TextOrEmpty("/alignment/mode")};
+    RowKey key{
+        reader.TextOrEmpty("/dataset"),        reader.TextOrEmpty("/sequence"),
+        reader.TextOrEmpty("/configuration"),  reader.TextOrEmpty("/provenance/distortion"),
+        reader.TextOrEmpty("/mode"),           reader.TextOrEmpty("/gt_frame"),
+        reader.TextOrEmpty("/alignment/mode"), reader.TextOrEmpty("/provenance/settings_sha256")};
     const Run run = ReadRun(reader, file);
     if (!run.skipped) runs.settings.insert(SettingsLine(reader));
     runs.rows[std::move(key)].push_back(run);
   }
   return runs;
+}
+
+// With the distortion and, where rows differ in settings alone, the first digits of their SHA-256.
+std::string ConfigurationText(const Runs& runs, const RowKey& key) {
+  std::vector<std::string> parts;
+  if (!key.configuration.empty()) parts.push_back(key.configuration);
+  if (!key.distortion.empty()) parts.push_back(key.distortion);
+  const auto num_alike = std::count_if(runs.rows.begin(), runs.rows.end(), [&](const auto& row) {
+    return row.first.Shown() == key.Shown();
+  });
+  if (num_alike > 1) {
+    parts.push_back("settings " +
+                    (key.settings_sha256.empty() ? "unknown" : key.settings_sha256.substr(0, 8)));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 // The statistics of one figure over the runs of a row.
@@ -217,11 +238,12 @@ std::string MarkdownText(const std::string& text) {
   return escaped;
 }
 
-std::string MarkdownCells(const RowKey& key, const RowSummary& row) {
+std::string MarkdownCells(const RowKey& key, const std::string& configuration,
+                          const RowSummary& row) {
   const RunStatistics& ate = row.ate_m;
   const RunStatistics& rotation = row.r_rel_deg_per_m;
   return MarkdownRow({MarkdownText(key.dataset), MarkdownText(key.sequence),
-                      MarkdownText(key.configuration), key.trajectory, key.gt_frame, key.alignment,
+                      MarkdownText(configuration), key.trajectory, key.gt_frame, key.alignment,
                       fmt::format("{}/{}", row.num_good, row.num_runs),
                       row.skipped ? "-" : fmt::format("{:.1f}", row.mean_coverage_pct),
                       Cell(row, ate, ate.mean, 4), Cell(row, ate, ate.median, 4),
@@ -251,7 +273,9 @@ std::string Markdown(const Runs& runs) {
                                            "note"};
   std::string text = MarkdownRow(header);
   text += MarkdownRow(std::vector<std::string>(header.size(), "---"));
-  for (const auto& [key, row_runs] : runs.rows) text += MarkdownCells(key, SummarizeRow(row_runs));
+  for (const auto& [key, row_runs] : runs.rows) {
+    text += MarkdownCells(key, ConfigurationText(runs, key), SummarizeRow(row_runs));
+  }
   text +=
       "\nX: no run kept a pose for enough frames. -: skipped. partial: the number is of a part of "
       "the sequence and does not count as a win. Statistics are over the runs used (OK or "
@@ -289,8 +313,8 @@ std::string Csv(const Runs& runs) {
                                            : "";
     text +=
         fmt::format("{},{},{},{},{},{},{},{},{},{},{},", CsvText(key.dataset),
-                    CsvText(key.sequence), CsvText(key.configuration), key.trajectory, key.gt_frame,
-                    key.alignment, mark, row.num_runs, row.num_good, row.num_partial,
+                    CsvText(key.sequence), CsvText(ConfigurationText(runs, key)), key.trajectory,
+                    key.gt_frame, key.alignment, mark, row.num_runs, row.num_good, row.num_partial,
                     row.skipped ? "" : fmt::format("{:.6g}", row.mean_coverage_pct));
     text +=
         fmt::format("{},{},{},{},{},{}\n", CsvStatistics(row.ate_m, 1.0),

@@ -6,10 +6,10 @@
 
 namespace lift_slam {
 
-// Tables over many runs. Runs with the same dataset, sequence, configuration, trajectory, frame of
-// the ground truth and alignment form one row: mean, median, min and max over the OK and PARTIAL
-// runs, "k/n" beside them. X: no run succeeded; "-": skipped on purpose (status SKIPPED);
-// "partial": some frames have no pose.
+// Tables over many runs. Runs with the same dataset, sequence, configuration, distortion, settings
+// (seed apart), trajectory, frame of the ground truth and alignment form one row: mean, median, min
+// and max over the OK and PARTIAL runs, "k/n" beside them. X: no run succeeded; "-": skipped on
+// purpose (status SKIPPED); "partial": some frames have no pose.
 struct RunReport {
   std::string markdown;  // table and settings footer
   std::string csv;       // one row a group, all statistics; empty cells where nothing was measured

@@ -70,6 +70,32 @@ TEST_F(RunReportTest, MarksFailedPartialAndSkippedRows) {
   EXPECT_THAT(report.csv, HasSubstr("made,bad,,final,cam,none,X,1,0,0,0,,,,,"));
 }
 
+TEST_F(RunReportTest, RunsOfOtherSettingsOrImagesAreNotAveraged) {
+  const auto write = [&](const char* name, double error_m, const nlohmann::json& provenance) {
+    WriteRun(name, "00", 0, error_m);
+    nlohmann::json json = nlohmann::json::parse(ReadText(folder_ / name / "result.json"));
+    json["configuration"] = "orb";
+    json["provenance"] = provenance;
+    WriteText(name, json.dump());
+  };
+  const std::string one = "1111111122222222", other = "3333333344444444";
+  write("a", 1.0, {{"settings_sha256", one}});
+  write("b", 3.0, {{"settings_sha256", one}});
+  write("c", 5.0, {{"settings_sha256", other}});
+  write("d", 7.0, {{"settings_sha256", one}, {"distortion", "gamma=2"}});
+  write("e", 9.0, nlohmann::json::object());  // of an earlier version
+  const RunReport report = Build();
+  const std::string rest = " | final | cam | none | ";
+  EXPECT_THAT(report.markdown,
+              HasSubstr("| orb, settings 11111111" + rest + "2/2 | 100.0 | 2.0000"));
+  EXPECT_THAT(report.markdown,
+              HasSubstr("| orb, settings 33333333" + rest + "1/1 | 100.0 | 5.0000"));
+  EXPECT_THAT(report.markdown, HasSubstr("| orb, gamma=2" + rest + "1/1 | 100.0 | 7.0000"));
+  EXPECT_THAT(report.markdown,
+              HasSubstr("| orb, settings unknown" + rest + "1/1 | 100.0 | 9.0000"));
+  EXPECT_THAT(report.csv, HasSubstr("made,00,\"orb, settings 33333333\",final,cam,none,"));
+}
+
 TEST_F(RunReportTest, EveryCsvRowHasTheColumnsOfTheHeader) {
   WriteRun("a1", "good", 0, 1.0);
   WriteRun("c1", "bad", 90, 0.0);
