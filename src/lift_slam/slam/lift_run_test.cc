@@ -66,6 +66,7 @@ TEST_F(LiftRun, IsTheSameWithFeaturesFromACache) {
 TEST_F(LiftRun, AdaptiveThresholdsAreRecordedForEveryTrackedFrame) {
   TestRunOptions options = Untrained();
   options.slam.matching.thresholds = ThresholdMode::kAdaptive;
+  options.slam.features.lift.low_threshold = options.slam.features.lift.high_threshold = 0.0;
   const RunRecord run = RunSynthetic(SmallSequence(SyntheticPath::kStreetDrive, 15, 10.0), options);
   int tracked = 0;
   for (const FrameRecord& frame : run.frames) {
