@@ -18,6 +18,7 @@ std::string Text(const RunStatistics& s, int decimals, CellStatistic statistic) 
 
 std::string RunsText(const BenchmarkCell& cell) {
   const int num_ended = static_cast<int>(cell.runs.size());
+  if (num_ended == 0) return "?";
   if (num_ended == cell.planned) return fmt::format("{}/{}", cell.NumGood(), cell.planned);
   return fmt::format("{}/{} of {}", cell.NumGood(), num_ended, cell.planned);
 }

@@ -10,7 +10,7 @@ namespace lift_slam {
 
 enum class CellStatistic { kMean, kMedian, kRange };  // kRange: "least to largest", never best
 
-// "3/5": runs that succeeded; "3/4 of 5": one is still to be run.
+// "3/5": runs that succeeded; "3/4 of 5": one is still to be run; "?": all are.
 std::string RunsText(const BenchmarkCell& cell);
 
 // What to know of a figure over runs of which some failed, are missing or kept a part of the

@@ -34,6 +34,7 @@ class BenchmarkEntry : public testing::Test {
 
 TEST_F(BenchmarkEntry, IsNoFailureWhileRunsAreMissing) {
   EXPECT_EQ(Text(), "?");
+  EXPECT_EQ(RunsText(cell_), "?");
   Add(RunStatus::kFailLost, 0.2, 9.0);
   EXPECT_EQ(Text(), "?");
   EXPECT_EQ(RunsText(cell_), "0/1 of 5");

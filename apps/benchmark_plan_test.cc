@@ -20,7 +20,7 @@ TEST_F(BenchmarkCommand, ASuiteTakesOtherSequencesThatAreNamed) {
   const Outcome tables = RunProgram("benchmark merge --output " + output_.string());
   EXPECT_EQ(tables.exit_code, 0) << tables.output;
   EXPECT_THAT(tables.output, Not(HasSubstr("LIFT-SLAM paper, Table 4")));
-  EXPECT_THAT(tables.output, HasSubstr("ours, ORB features | 0/0 of 1 | ? | ? |"));
+  EXPECT_THAT(tables.output, HasSubstr("ours, ORB features | ? | ? | ? |"));
 }
 
 TEST_F(BenchmarkCommand, MissingWeightsAreListedWithTheirMaking) {
