@@ -15,14 +15,15 @@ struct Range {
 };
 
 constexpr double kMost = 1e9;
+constexpr double kMostIterations = 1e5;  // more would seem to hang
 // No option may be negative; these may not be 0 either: that many rounds do nothing, and a limit or
 // a standard deviation of 0 excludes everything.
 constexpr Range kRanges[] = {
     {"num_threads", 1, 256},
-    {"max_iterations", 1, kMost},
-    {"robust_iterations", 1, kMost},
-    {"plain_iterations", 1, kMost},
-    {"iterations_per_round", 1, kMost},
+    {"max_iterations", 1, kMostIterations},
+    {"robust_iterations", 1, kMostIterations},
+    {"plain_iterations", 1, kMostIterations},
+    {"iterations_per_round", 1, kMostIterations},
     {"rounds", 1, 1000},
     {"limit_factor", 1, kMost},
     {"max_squared_error", 1e-6, kMost},
