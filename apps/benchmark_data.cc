@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <sstream>
 
 #include "apps/build_info.h"
+#include "lift_slam/util/environment.h"
 #include "lift_slam/util/file.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
@@ -110,8 +110,7 @@ bool IsSmallText(const fs::path& file) {
 }
 
 fs::path PresetFolder() {
-  const char* folder = std::getenv("LIFT_SLAM_SYSTEMS_DIR");
-  return folder != nullptr && *folder != '\0' ? fs::path(folder) : ShippedFile("configs/systems");
+  return EnvironmentPath("LIFT_SLAM_SYSTEMS_DIR").value_or(ShippedFile("configs/systems"));
 }
 
 std::vector<std::string> PresetNames(const fs::path& folder) {

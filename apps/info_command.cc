@@ -14,12 +14,6 @@
 namespace lift_slam {
 namespace {
 
-std::string ProgramPath() {
-  std::error_code error;
-  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? "unknown" : path.string();
-}
-
 void PrintInfo() {
   const std::vector<std::string> features = CpuFeatures();
   const double memory_gib = static_cast<double>(TotalMemoryBytes()) / (1 << 30);
@@ -34,7 +28,7 @@ void PrintInfo() {
       {"CPU features", features.empty() ? "none" : fmt::format("{}", fmt::join(features, " "))},
       {"threads", std::to_string(NumHardwareThreads())},
       {"memory", fmt::format("{:.1f} GiB", memory_gib)},
-      {"program", ProgramPath()},
+      {"program", ProgramPath().value_or("unknown").string()},
       {"shipped files", ShippedFile("weights").parent_path().string()},
       {"working folder", std::filesystem::current_path().string()},
   };

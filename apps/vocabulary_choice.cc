@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "lift_slam/place_recognition/vocabulary.h"
+#include "lift_slam/util/environment.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/shipped_file.h"
 
@@ -25,13 +25,13 @@ std::vector<fs::path> VocabulariesIn(const fs::path& folder) {
 }
 
 fs::path VocabularyFolder() {
-  const char* folder = std::getenv("LIFT_SLAM_VOCABULARY_DIR");
-  if (folder == nullptr || *folder == '\0') return ShippedFile("vocabularies");
-  if (!fs::is_directory(folder)) {
+  const auto folder = EnvironmentPath("LIFT_SLAM_VOCABULARY_DIR");
+  if (!folder) return ShippedFile("vocabularies");
+  if (!fs::is_directory(*folder)) {
     throw InputError(
-        fmt::format("LIFT_SLAM_VOCABULARY_DIR is '{}', which is not a folder", folder));
+        fmt::format("LIFT_SLAM_VOCABULARY_DIR is '{}', which is not a folder", folder->string()));
   }
-  return folder;
+  return *folder;
 }
 
 }  // namespace

@@ -83,8 +83,9 @@ TrainingOptions FineTuningDefaults(const LiftWeights& from) {
   options.descriptor.easy_steps = 0;
   // Finished weights are scaled (CarryOverCalibration, calibrate): with the margin of the beginning
   // they would learn a larger scale before all else, and worse.
-  if (from.distances)
+  if (from.distances) {
     options.descriptor.margin = from.distances->nearest_wrong[2] / kNearestWrongInMargins;
+  }
   // The angle between two real views is not known.
   options.orientation.loss = OrientationLoss::kDescriptor;
   return options;

@@ -34,9 +34,7 @@ void WarnOfAnotherDescriptor(const TrainingOptions& options, const fs::path& fol
   LiftWeights trained = ReadLiftWeights(best);
   if (DescriptorValues(trained) == DescriptorValues(weights)) return;
   std::cerr << fmt::format(
-      "{}: was trained against another descriptor than it now goes with; remove the folder to "
-      "train "
-      "it anew\n",
+      "{}: was trained against another descriptor; remove the folder to train it anew\n",
       folder.string());
 }
 

@@ -11,6 +11,7 @@
 #include "lift_slam/nn/half_float.h"
 #include "lift_slam/util/input_error.h"
 #include "training/patch_sampler.h"
+#include "training/stage_network.h"
 #include "training/weights_calibration.h"
 
 namespace lift_slam::training {
@@ -52,10 +53,8 @@ void Assemble(const AssembleArguments& arguments) {
   }
   CheckInput(arguments.orientation, orientation.orientation_input);
   CheckInput(arguments.detector, detector.detector_input);
-  weights.orientation = orientation.orientation;
-  weights.orientation_input = orientation.orientation_input;
-  weights.detector = detector.detector;
-  weights.detector_input = detector.detector_input;
+  TakeNetwork(Stage::kOrientation, orientation, weights);
+  TakeNetwork(Stage::kDetector, detector, weights);
   weights.name = arguments.name;
   weights.provenance = "descriptor: " + weights.provenance +
                        "\norientation: " + orientation.provenance +

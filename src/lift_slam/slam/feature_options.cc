@@ -7,7 +7,7 @@
 #include "lift_slam/features/lift/default_weights.h"
 #include "lift_slam/features/lift/lift_extractor.h"
 #include "lift_slam/features/orb/orb_extractor.h"
-#include "lift_slam/image/image_threads.h"
+#include "lift_slam/image/image_library.h"
 #include "lift_slam/nn/executor.h"
 #include "lift_slam/util/option_root.h"
 #include "lift_slam/util/option_writer.h"

@@ -1,6 +1,7 @@
 #include "lift_slam/util/shipped_file.h"
 
-#include <cstdlib>
+#include "lift_slam/util/environment.h"
+#include "lift_slam/util/system_info.h"
 
 namespace lift_slam {
 namespace {
@@ -13,12 +14,9 @@ bool IsFolder(const fs::path& path) {
 }
 
 fs::path ShareFolder() {
-  const char* chosen = std::getenv("LIFT_SLAM_SHARE_DIR");
-  if (chosen != nullptr && *chosen != '\0') return chosen;
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    const fs::path beside = program.parent_path().parent_path() / "share" / "lift_slam";
+  if (const auto chosen = EnvironmentPath("LIFT_SLAM_SHARE_DIR")) return *chosen;
+  if (const auto program = ProgramPath()) {
+    const fs::path beside = program->parent_path().parent_path() / "share" / "lift_slam";
     if (IsFolder(beside)) return beside;
   }
   if (IsFolder(fs::path(LIFT_SLAM_SOURCE_TREE) / "weights")) return LIFT_SLAM_SOURCE_TREE;

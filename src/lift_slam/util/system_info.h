@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,8 @@ std::string CpuName();
 std::vector<std::string> CpuFeatures();
 // Threads that can run at once for this process; at least 1.
 int NumHardwareThreads();
+// Of the running program's file; nothing when the system does not say.
+std::optional<std::filesystem::path> ProgramPath();
 // Main memory of the machine; 0 when unknown.
 std::int64_t TotalMemoryBytes();
 // The most memory this process has held so far (resident set).

@@ -2,8 +2,9 @@
 
 namespace lift_slam {
 
-const char* MapViewerScript() {
-  return R"js(
+namespace {
+
+constexpr char kScript[] = R"js(
 (function () {
   "use strict";
   const box = document.getElementById("viewer"), canvas = box.querySelector("canvas");
@@ -176,6 +177,9 @@ const char* MapViewerScript() {
   show(0);
 })();
 )js";
-}
+
+}  // namespace
+
+const char* MapViewerScript() { return kScript; }
 
 }  // namespace lift_slam

@@ -2,8 +2,9 @@
 
 namespace lift_slam {
 
-const char* ReportStyleSheet() {
-  return R"css(
+namespace {
+
+constexpr char kStyleSheet[] = R"css(
 :root{color-scheme:light dark;--page:#fff;--panel:#f6f7f9;--rule:#e0e4e9;--text:#1d2127;--soft:#5b6571;
 --ok:#00734f;--ok-bg:#e2f4ed;--mid:#8a5a00;--mid-bg:#fdf1d8;--bad:#a93c00;--bad-bg:#fdeadf;--bar:#0072b2}
 @media screen and (prefers-color-scheme:dark){:root{--page:#13161b;--panel:#1a1e24;--rule:#2b3139;--text:#e6eaef;
@@ -69,6 +70,9 @@ body{padding:20px 14px 40px}.status{flex-direction:column;gap:6px}}
 @media print{body{padding:0;max-width:none;font-size:12px}h2{break-after:avoid;margin-top:24px}figure,.key,.status,table{break-inside:avoid}
 .status,.key,.viewer,.share i{-webkit-print-color-adjust:exact;print-color-adjust:exact}.frames,.wide-frames{grid-template-columns:repeat(2,1fr)}}
 )css";
-}
+
+}  // namespace
+
+const char* ReportStyleSheet() { return kStyleSheet; }
 
 }  // namespace lift_slam

@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
+#include "lift_slam/util/environment.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/shipped_file.h"
 
 namespace lift_slam {
 
 std::filesystem::path DefaultLiftWeights() {
-  const char* chosen = std::getenv("LIFT_SLAM_WEIGHTS");
-  if (chosen != nullptr && *chosen != '\0') return chosen;
+  if (const auto chosen = EnvironmentPath("LIFT_SLAM_WEIGHTS")) return *chosen;
   return ShippedFile("weights/lift-default.safetensors");
 }
 

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <opencv2/core/version.hpp>
 #include <thread>
 
 #include "lift_slam/features/orb/corner_orientation.h"
 #include "lift_slam/features/orb/corner_refinement.h"
+#include "lift_slam/image/image_library.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/option_root.h"
 #include "lift_slam/util/option_writer.h"
@@ -140,7 +140,7 @@ std::string OrbIdentity(OrbOptions options) {
   const OrbOptions defaults;
   options.num_threads = defaults.num_threads;
   options.sigma_px = defaults.sigma_px;
-  return "orb, OpenCV " CV_VERSION "\n" + OptionsToYaml(MakeOptionRoot(options));
+  return fmt::format("orb, {}\n{}", ImageLibraryVersion(), OptionsToYaml(MakeOptionRoot(options)));
 }
 
 }  // namespace lift_slam

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdlib>
-
+#include "lift_slam/util/environment.h"
 #include "lift_slam/util/input_error.h"
 #include "lift_slam/util/nearest_name.h"
 
@@ -28,9 +27,9 @@ std::string LastPart(const std::string& track) { return track.substr(track.find(
 }  // namespace
 
 fs::path TorcsFolder(const std::string& folder) {
-  const char* variable = std::getenv("LIFT_SLAM_TORCS");
-  const bool has_variable = variable != nullptr && *variable != '\0';
-  const fs::path chosen = !folder.empty() ? folder : has_variable ? variable : kDebianFolder;
+  const fs::path chosen = !folder.empty()
+                              ? fs::path(folder)
+                              : EnvironmentPath("LIFT_SLAM_TORCS").value_or(kDebianFolder);
   std::error_code ignored;
   if (!fs::is_directory(chosen / "tracks", ignored)) {
     throw InputError(fmt::format(
