@@ -13,6 +13,7 @@
 #include "apps/benchmark_outcome.h"
 #include "apps/benchmark_plan.h"
 #include "apps/benchmark_results.h"
+#include "apps/benchmark_usage.h"
 #include "apps/exit_code.h"
 #include "apps/pdf_figure.h"
 #include "lift_slam/util/file.h"
@@ -223,7 +224,10 @@ void AddBenchmarkCommand(CLI::App& app) {
       "  seq 55 | parallel lift_slam benchmark run-job {} --output bench\n"
       "  lift_slam benchmark merge --output bench --external DeepVO=~/deepvo\n"
       "  lift_slam benchmark results --from bench bench2 --output docs/results.md");
-  command->callback([arguments] { Benchmark(*arguments); });
+  command->callback([command, arguments] {
+    CheckBenchmarkUsage(*command, arguments->words);
+    Benchmark(*arguments);
+  });
 }
 
 }  // namespace lift_slam

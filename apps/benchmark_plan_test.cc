@@ -164,5 +164,24 @@ TEST_F(BenchmarkCommand, BadArgumentsAreExplained) {
   ExpectOneSentence(RunProgram("benchmark kitti --output " + output_.string()), {"--data"});
 }
 
+TEST_F(BenchmarkCommand, OptionsThatWouldBeLeftUnreadAreRefused) {
+  const std::string output = " --output " + output_.string();
+  const auto expect = [&](const std::string& arguments, const std::string& sentence) {
+    ExpectOneSentence(RunProgram("benchmark " + arguments + output), {sentence});
+  };
+  expect("run-job 1 --set slam.features=orb",
+         "--set says nothing to 'benchmark run-job 1': it is for a suite and 'plan'");
+  expect("plan kitti --data . --feature-cache c", "and 'run-job'");
+  expect("plan kitti --data . --jobs 2", "it is for a suite");
+  expect("kitti --data . --from b", "it is for 'results'");
+  expect("kitti --data . --weights w", "it is for the suite 'matching'");
+  expect("merge --runs 3", "--runs says nothing to 'benchmark merge'");
+  expect("matching --data . --runs 3", "it is for a suite other than 'matching' and 'plan'");
+  expect("kitti euroc --data .", "benchmark kitti: expected nothing after it, found 'euroc'");
+  expect("plan --data .", "benchmark plan: expected a suite after it");
+  expect("run-job", "benchmark run-job: expected the number of a run after it");
+  EXPECT_FALSE(std::filesystem::exists(output_ / "plan.json"));
+}
+
 }  // namespace
 }  // namespace lift_slam
