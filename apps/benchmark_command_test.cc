@@ -266,8 +266,9 @@ TEST_F(BenchmarkCommand, ResultsBecomeADocumentThatTheSameResultsGiveAgain) {
   for (const char* part :
        {"## kitti\n", "## matching\n", "| finished | 1 of 1 jobs |", "| SHA-256, sequence 00 | `",
         "| set for every system | `slam.loop_closing.enabled=false` |", "| frames | 0:38:1 |",
-        "| SHA-256, settings of ours, ORB features, seed 0 | `", "| processor | ",
-        "![00](results/kitti_trajectory_00.svg)", "![00](results/matching_skip_00.svg)"}) {
+        "| images, sequence 00 | 39 |", "| SHA-256, settings of ours, ORB features, seed 0 | `",
+        "| processor | ", "![00](results/kitti_trajectory_00.svg)",
+        "![00](results/matching_skip_00.svg)"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_FALSE(fs::exists(folder_ / "docs/results/kitti_trajectory_07.svg"));
@@ -275,6 +276,17 @@ TEST_F(BenchmarkCommand, ResultsBecomeADocumentThatTheSameResultsGiveAgain) {
   EXPECT_TRUE(fs::is_regular_file(folder_ / "docs/results/kitti_trajectory_00.svg"));
   ASSERT_EQ(RunProgram(results).exit_code, 0);
   EXPECT_EQ(ReadText(document), text);
+
+  // Two of one suite are told apart by their folders.
+  const fs::path other = folder_ / "narrow";
+  fs::copy(output_, other, fs::copy_options::recursive);
+  const fs::path both = folder_ / "both.md";
+  ASSERT_EQ(RunProgram(fmt::format("benchmark results --from {} {} --output {}", output_.string(),
+                                   other.string(), both.string()))
+                .exit_code,
+            0);
+  EXPECT_THAT(ReadText(both), AllOf(HasSubstr("## kitti_" + output_.filename().string() + "\n"),
+                                    HasSubstr("## kitti_narrow\n"), Not(HasSubstr("## kitti\n"))));
 
   ExpectOneSentence(RunProgram("benchmark results --output " + document.string()), {"--from"});
   ExpectOneSentence(

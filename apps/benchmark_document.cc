@@ -27,6 +27,7 @@ struct Origin {
   int finished = 0;
   std::set<std::string> processors, revisions, dates;
   std::map<std::string, std::string> settings;  // SHA-256 by title, of the first run
+  std::map<std::string, int> frames;            // by sequence, of the first run
 };
 
 std::string TextAt(const Json& json, const char* pointer) {
@@ -49,6 +50,8 @@ Origin FindOrigin(const BenchmarkPlan& plan, const fs::path& folder) {
     origin.dates.insert(TextAt(json, "/provenance/date_utc").substr(0, 10));
     const std::string settings = TextAt(json, "/provenance/config_sha256");
     if (!settings.empty()) origin.settings.try_emplace(job.title, settings);
+    const int frames = json.value(Json::json_pointer("/coverage/frames_total"), 0);
+    if (frames > 0) origin.frames.try_emplace(job.sequence, frames);
   }
   return origin;
 }
@@ -78,6 +81,9 @@ std::string OriginTable(const BenchmarkPlan& plan, const Origin& origin) {
     text += Row("set for every system", fmt::format("`{}`", fmt::join(overrides, " ")));
   }
   if (!plan.frames.empty()) text += Row("frames", plan.frames);
+  for (const auto& [sequence, frames] : origin.frames) {
+    text += Row(fmt::format("images, sequence {}", sequence), std::to_string(frames));
+  }
   text += Row("finished", fmt::format("{} of {} jobs", origin.finished, plan.jobs.size()));
   text += Row("date (UTC)", fmt::format("{}", fmt::join(origin.dates, ", ")));
   for (const auto& [name, hash] : plan.hashes) {
@@ -143,24 +149,32 @@ void WriteFigures(const std::map<std::string, std::string>& figures, const fs::p
   for (const fs::path& path : old) fs::remove(path);
 }
 
-// The suite's; of a second benchmark of a suite with its folder, and a number if need be.
-std::string ChapterName(const std::string& suite, const fs::path& folder,
-                        std::set<std::string>& taken) {
-  std::string name = suite;
-  if (taken.contains(name)) {
-    name = fmt::format("{}_{}", suite, fs::canonical(folder).filename().string());
+// Each is its suite's; where several benchmarks are of one suite, with their folders, and numbers
+// if need be.
+std::vector<std::string> ChapterNames(const std::vector<BenchmarkPlan>& plans,
+                                      const std::vector<fs::path>& folders) {
+  std::map<std::string, int> counts;
+  for (const BenchmarkPlan& plan : plans) ++counts[plan.suite];
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    const std::string& suite = plans[k].suite;
+    const std::string first =
+        counts[suite] == 1
+            ? suite
+            : fmt::format("{}_{}", suite, fs::canonical(folders[k]).filename().string());
+    std::string name = first;
+    for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", first, i);
+    names.push_back(name);
   }
-  for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", suite, i);
-  return name;
+  return names;
 }
 
-Chapter MakeChapter(const fs::path& folder, const fs::path& publications, const std::string& link,
-                    std::set<std::string>& taken) {
-  const BenchmarkPlan plan = ReadBenchmarkPlan(folder);
+Chapter MakeChapter(const std::string& name, const BenchmarkPlan& plan, const fs::path& folder,
+                    const fs::path& publications, const std::string& link) {
   const Origin origin = FindOrigin(plan, folder);
   if (origin.finished == 0) throw InputError(folder.string() + ": has no finished run");
   const BenchmarkOutcome outcome = OutcomeOf(plan, folder, publications);
-  const std::string name = ChapterName(plan.suite, folder, taken);
   Chapter chapter;
   chapter.text =
       fmt::format("## {}\n\n{}{}", name, outcome.tables.markdown, OriginTable(plan, origin));
@@ -178,9 +192,12 @@ void WriteBenchmarkDocument(const std::vector<fs::path>& folders, const fs::path
       "edited. "
       "[benchmark.md](benchmark.md) says how they are made and read.\n\n";
   std::map<std::string, std::string> figures;
-  std::set<std::string> taken;
-  for (const fs::path& folder : folders) {
-    Chapter chapter = MakeChapter(folder, publications, figures_folder.filename().string(), taken);
+  std::vector<BenchmarkPlan> plans;
+  for (const fs::path& folder : folders) plans.push_back(ReadBenchmarkPlan(folder));
+  const std::vector<std::string> names = ChapterNames(plans, folders);
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    Chapter chapter = MakeChapter(names[i], plans[i], folders[i], publications,
+                                  figures_folder.filename().string());
     text += chapter.text;
     figures.merge(chapter.figures);
   }
