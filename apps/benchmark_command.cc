@@ -131,7 +131,7 @@ void EndWith(int num_failed) {
 
 void RunOne(const BenchmarkArguments& arguments) {
   const BenchmarkPlan plan = ReadBenchmarkPlan(arguments.output);
-  const auto number = ParseIndex(arguments.words.size() == 2 ? arguments.words[1] : "");
+  const auto number = ParseIndex(arguments.words.back());
   if (!number || *number < 1 || *number > static_cast<std::int64_t>(plan.jobs.size())) {
     throw InputError(fmt::format("run-job: expected a number from 1 to {}", plan.jobs.size()));
   }

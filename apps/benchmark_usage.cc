@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <string_view>
 
 #include "lift_slam/util/input_error.h"
@@ -35,7 +34,7 @@ constexpr OptionUse kUses[] = {
     {"--jobs", kBatch},
     {"--feature-cache", kRun, {}, true},
     {"--external", kMerge, {}, true},
-    {"--publications", kMerge | kResults},
+    {"--publications", kMerge | kResults, {}, true},
     {"--from", kResults},
 };
 
